@@ -16,7 +16,12 @@ from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 
 Level = Literal["shall", "should", "may", "statement"]
-"""The force of a requirement: an obligation, a recommendation, a permission, or a fact."""
+"""The force of a requirement: an obligation, a recommendation, a permission, or a fact (docs/decisions/0012)."""
+
+
+def decides(level: Level) -> bool:
+    """Does a requirement of this level decide the verdict of a run? A recommendation does not."""
+    return level != "should"
 
 
 class Requirement(Value, frozen=True):
@@ -27,6 +32,7 @@ class Requirement(Value, frozen=True):
     ``title``: a few words for lists.
     ``level``: its force.
     ``meaning``: what it demands.
+    ``derived``: why it holds although the text does not say it; empty if the text says it.
     ``observed``: how a trace or a model shows that it was kept or broken.
     ``rules``: the properties or model checks that decide it.
     ``untestable``: why no run can decide it.
@@ -46,6 +52,12 @@ class Requirement(Value, frozen=True):
     interpretations: tuple[str, ...] = ()
     profile: str = "container"
     pending: str = ""
+    derived: str = ""
+
+    @property
+    def force(self) -> str:
+        """Its level as people read it."""
+        return f"{self.level}, derived" if self.derived else self.level
 
 
 SUITE = Path(__file__).parents[2] / "suite"

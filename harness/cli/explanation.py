@@ -12,10 +12,12 @@ from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
 from ucm_cts.harness.catalogue.requirements import (
     Need,
     Requirement,
+    decides,
     load_capabilities,
     load_interpretations,
     load_requirements,
 )
+from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.purposes.selection import load_purposes
@@ -30,11 +32,16 @@ def explanation(identifier: str) -> RenderableType:
     interpretations = {i.id: i for i in load_interpretations()}
     lines: list[RenderableType] = [
         Text(f"{requirement.id}  {requirement.title}", style="bold"),
-        Text(f"clause {requirement.clause}, {requirement.level}, profile {requirement.profile}"),
+        Text(f"clause {requirement.clause}, {requirement.force}, profile {requirement.profile}"),
         Text(),
         Text(requirement.meaning),
     ]
     for label, text in (
+        ("Derived", requirement.derived),
+        (
+            "Recommendation",
+            "" if decides(requirement.level) else "not following it does not make a product non-conformant",
+        ),
         ("Not tested", requirement.untestable),
         ("Not checked yet", requirement.pending),
         ("Observed", requirement.observed),
@@ -46,7 +53,7 @@ def explanation(identifier: str) -> RenderableType:
         lines += _paragraph(f"Interpretation {name}: ", entry.reason, *entry.lines[1:], *options)
     for need in load_capabilities().of(requirement.id):
         lines += _paragraph("Applies where the vendor states: ", _needed(need))
-    checks = CHECKS | TOOLCHAIN_CHECKS
+    checks = CHECKS | TOOLCHAIN_CHECKS | HOST_CHECKS
     for rule in requirement.rules:
         doc = checks[rule] if rule in checks else (PROPERTIES[rule].evaluate.__doc__ or "").strip().splitlines()[0]
         lines += _paragraph(f"Checked by {rule}: ", doc)
@@ -74,7 +81,7 @@ def overview() -> RenderableType:
         table.add_column(column)
     for r in load_requirements():
         remark = " (not testable)" if r.untestable else " (not checked yet)" if r.pending else ""
-        table.add_row(r.id, r.clause, r.level, r.title + remark)
+        table.add_row(r.id, r.clause, r.force, r.title + remark)
     return table
 
 

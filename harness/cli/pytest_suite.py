@@ -14,12 +14,14 @@ from typing import cast
 import pytest
 
 from ucm_cts.harness.catalogue.documents import DocumentError
+from ucm_cts.harness.catalogue.requirements import decides, load_requirements
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.report.diagrams.sequence_text import failure_text
+from ucm_cts.harness.report.order import not_followed
 from ucm_cts.harness.report.write import prepare_folder, save_report
 from ucm_cts.harness.results.known_failures import known_today, stale, waiver_for
 from ucm_cts.harness.results.statement import Statement
@@ -97,11 +99,13 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
                 pass
         report = running.report()
         config.stash[_UNDECIDED] = _undecided(running, report)
+        config.stash[_ADVICE] = [f"{r.id}: {r.title}" for r in not_followed(report.requirements)]
         if out:
             save_report(report, Path(out))
 
 
 _UNDECIDED = pytest.StashKey[list[str]]()
+_ADVICE = pytest.StashKey[list[str]]()
 _STATEMENT: pytest.StashKey[Statement] = pytest.StashKey()
 
 
@@ -112,13 +116,13 @@ def _undecided(campaign: Campaign, report: FrameworkReport) -> list[str]:
     lines = [
         f"{r.verdict} {r.id}: {r.reason}"
         for r in report.requirements
-        if r.verdict in ("inconclusive", "error") and (whole or r.id in meant)
+        if r.verdict in ("inconclusive", "error") and r.decides and (whole or r.id in meant)
     ]
     lines += [
         f"fail {r.id}: expected {f.finding.expected}; observed {f.finding.observed}"
         for r in report.requirements
         for f in r.findings
-        if f.execution is None and not f.waived and (whole or r.id in meant)
+        if f.execution is None and not f.waived and r.decides and (whole or r.id in meant)
     ]
     if whole:
         lines += [
@@ -136,26 +140,33 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    """Print the requirements without a verdict."""
+    """Print the requirements without a verdict, and the recommendations that were not followed."""
     lines = config.stash.get(_UNDECIDED, [])
     if lines:
         terminalreporter.section("UCM conformance is not established", red=True)
         for line in lines:
             terminalreporter.write_line(line)
+    advice = config.stash.get(_ADVICE, [])
+    if advice:
+        terminalreporter.section("Recommendations not followed", yellow=True)
+        for line in advice:
+            terminalreporter.write_line(line)
 
 
 @pytest.fixture
 def check(campaign: Campaign) -> object:
-    """Run a purpose and fail with what was expected and what was observed."""
+    """Run a purpose and fail with what was expected and what was observed. Recommendations fail nothing."""
+    advice = {r.id for r in load_requirements() if not decides(r.level)}
 
     def run(purpose: TestPurpose) -> None:
         for checked in campaign.check([purpose]):
-            reasons = [waiver_for(f, campaign.known) if f is not None else "" for f, _ in checked.failures]
+            failures = [(f, execution) for f, execution in checked.failures if f is None or f.requirement not in advice]
+            reasons = [waiver_for(f, campaign.known) if f is not None else "" for f, _ in failures]
             if reasons and all(reasons):
                 pytest.xfail("; ".join(sorted(set(reasons))))
-            stories = [_story(finding, execution) for finding, execution in checked.failures[:3]]
+            stories = [_story(finding, execution) for finding, execution in failures[:3]]
             if stories:
-                more = len(checked.failures) - len(stories)
+                more = len(failures) - len(stories)
                 pytest.fail("\n\n".join(stories) + (f"\n\nand {more} more" if more > 0 else ""), pytrace=False)
 
     return run

@@ -11,6 +11,7 @@ import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
+from ucm_cts.harness.execution import leftovers
 from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, timed_requirements
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.execution.shortening import Shortening
@@ -93,6 +94,7 @@ class Campaign:
             failures.extend(self._take(answer, purpose))
             done += 1
             if done == len(purpose.scenarios):
+                failures.extend(self._examine_leftovers(purpose) if not failures else ())
                 now = time.monotonic()
                 self._spent[purpose.clause] = self._spent.get(purpose.clause, 0.0) + now - since
                 since = now
@@ -131,6 +133,24 @@ class Campaign:
         for finding in findings:
             yield finding, execution
 
+    def _examine_leftovers(self, purpose: TestPurpose) -> Iterator[tuple[Finding, Execution]]:
+        """If ``purpose`` asks whether destroy frees resources: what many destroyed runtimes leave in their host."""
+        if leftovers.FREED not in purpose.requirements:
+            return
+        patience = self.statement.ixit["patience"] / 1000
+        for name, scenario in purpose.scenarios:
+            examined = leftovers.examine(self._driver, name, scenario, patience)
+            if examined is None:
+                reason = "the process of its host is not on this machine, or its threads and files cannot be counted"
+                self._tally.settle(leftovers.FREED, "not applicable", reason)
+                continue
+            answer, finding = examined
+            self._tally.exercised[leftovers.FREED] += 1
+            if finding is not None:
+                execution = self._driver.revealed(answer)
+                self._tally.add_failure(finding, TraceEvidence(execution))
+                yield finding, execution
+
     def _judge_hang(self, answer: Answer, execution: Execution) -> Iterator[tuple[Finding, Execution]]:
         """Judge the trace of a scenario whose threads never came back: a property may forbid that."""
         findings = self._monitor.judge(answer.disguised, answer.trace).findings
@@ -153,6 +173,8 @@ class Campaign:
         for failure in list(self._tally.failures.values()):
             execution, requirement = failure.execution, failure.finding.requirement
             if execution is None or execution.incident is not None or failure.unstable:
+                continue
+            if failure.finding.rule in leftovers.HOST_CHECKS:  # dozens of runs have shown it
                 continue
             if failure.occurrences > 1 and requirement in confirmed:
                 continue

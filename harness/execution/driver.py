@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Self, TypeVar
@@ -19,6 +19,7 @@ from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.host_clock import HostClock
 from ucm_cts.harness.execution.integrity import believable, contradiction
+from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
 from ucm_cts.harness.hosting.locate import Endpoint
@@ -175,6 +176,27 @@ class Driver:
         if not isinstance(reply, Traced) or contradiction(disguised, reply.events, bool(reply.stuck)) is not None:
             return Answer(name, scaled, disguised, ())
         return Answer(name, scaled, disguised, reply.events)
+
+    def many_times(self, name: str, scenario: Scenario) -> Generator[tuple[Answer, Usage | None], None, None]:
+        """``scenario`` again and again on one fresh host, each time with what the host's process holds afterwards.
+
+        Close the iterator between two answers of a ``run``. It ends at the first answer without a trace.
+        """
+        self._hosts.discard()
+        try:
+            while True:
+                disguised = self.disguise.scenario(scenario)
+                (answer,) = self._hosts.run([Run(next(self._numbers), disguised)])
+                if not isinstance(answer.reply, Traced) or answer.reply.stuck:
+                    return
+                yield Answer(name, scenario, disguised, answer.reply.events), self._hosts.usage
+        finally:
+            self._hosts.discard()
+
+    @property
+    def usage(self) -> Usage | None:
+        """What the process of the current host holds now."""
+        return self._hosts.usage
 
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""

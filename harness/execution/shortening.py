@@ -9,6 +9,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.execution import shrink, smaller_values
 from ucm_cts.harness.execution.confirmation import Confirmation
 from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.tally import Cause, Tally, cause_of
 from ucm_cts.harness.results.values import Execution, IncidentKind
@@ -45,7 +46,7 @@ class Shortening:
         until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
         last = time.monotonic() + SECONDS_FOR_ALL_SHORTER
         for cause, failure in list(self._tally.failures.items()):
-            if failure.execution is None or failure.unstable:
+            if failure.execution is None or failure.unstable or failure.finding.rule in HOST_CHECKS:
                 continue
             incident = failure.execution.incident
             ends = min(time.monotonic() + SECONDS_FOR_SHORTER, last)

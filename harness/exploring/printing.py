@@ -106,7 +106,7 @@ class Found(Value, frozen=True):
 
 def is_found(report: v.FrameworkReport) -> bool:
     """Whether anything failed, or hung where waiting for ever is not permitted."""
-    return bool(mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
+    return bool(mishaps(report)) or any(result.verdict == "fail" and result.decides for result in report.requirements)
 
 
 def mishaps(report: v.FrameworkReport) -> list[tuple[int, v.IncidentReport]]:

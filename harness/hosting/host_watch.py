@@ -46,6 +46,14 @@ class Limits:
     incident_seconds: float = 60.0
 
 
+@dataclass(frozen=True)
+class Usage:
+    """What a host's process holds: ``threads``, and open ``files`` (sockets and pipes count as files)."""
+
+    threads: int
+    files: int
+
+
 class Deadline(msgspec.Struct, frozen=True):
     """A point of time by ``time.monotonic``, and the seconds until then when it was set."""
 
@@ -80,6 +88,9 @@ class Host(Protocol):
 
     def keep_to_one_core(self) -> None:
         """Restrict the threads that a local host will start to one core."""
+
+    def usage(self) -> Usage | None:
+        """What its process holds now; None if that cannot be counted."""
 
     def close(self) -> None:
         """Let the host go."""
@@ -232,6 +243,13 @@ class WatchedHost:
         if resident > self._limits.memory:
             self.fail("memory", f"{resident} MiB resident, {self._limits.memory} MiB allowed")
 
+    def usage(self) -> Usage | None:
+        try:
+            threads, files = (len(os.listdir(f"/proc/{self._channel.pid}/{kind}")) for kind in ("task", "fd"))
+        except OSError:
+            return None
+        return Usage(threads, files)
+
     def _fail_hanging(self, deadline: Deadline) -> NoReturn:
         self._drain()
         self._stderr.clear()
@@ -280,6 +298,10 @@ class InProcessHost:
 
     def keep_to_one_core(self) -> None:
         """Nothing to do: the cores are those of the harness."""
+
+    def usage(self) -> Usage | None:
+        """None: the harness itself starts threads in this process."""
+        return None
 
     def close(self) -> None:
         self._questions.clear()

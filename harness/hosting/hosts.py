@@ -28,7 +28,15 @@ from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.contract.traits import duration
 from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
 from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, opener
-from ucm_cts.harness.hosting.host_watch import Deadline, Host, HostIncident, InProcessHost, Limits, WatchedHost
+from ucm_cts.harness.hosting.host_watch import (
+    Deadline,
+    Host,
+    HostIncident,
+    InProcessHost,
+    Limits,
+    Usage,
+    WatchedHost,
+)
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
 from ucm_cts.harness.results.values import Incident
 
@@ -145,6 +153,11 @@ class Hosts:
         finally:
             self.discard()
         return answer
+
+    @property
+    def usage(self) -> Usage | None:
+        """What the process of the current host holds; None if there is no host, or none on this machine."""
+        return self._host.usage() if self._host is not None else None
 
     def close(self) -> None:
         """End the host and everything that was started for it."""

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
 
 import msgspec
 
@@ -140,7 +139,7 @@ def _contradiction(report: ReportEntry) -> str:
             return f"{entry.id} is '{entry.verdict}', against its findings"
         if entry.verdict == "pass" and not entry.exercised:
             return f"{entry.id} is 'pass' and was never exercised"
-    due = overall(cast(Any, report.requirements), cast(Any, report.incidents))
+    due = overall(report.requirements, report.incidents)
     return "" if report.verdict == due else f"says '{report.verdict}', but what it holds is '{due}'"
 
 

@@ -9,11 +9,11 @@ from urllib.parse import quote
 
 from ucm_cts.harness.report.comparison import Column, Comparison, Row, first_finding
 from ucm_cts.harness.report.json_report import ReportEntry
-from ucm_cts.harness.report.order import VERDICTS, count
+from ucm_cts.harness.report.order import VERDICTS, Shown, count, shown
 from ucm_cts.harness.report.page import rendered
 from ucm_cts.harness.results.values import Verdict
 
-_ORDER: tuple[Verdict, ...] = ("pass", *(verdict for verdict in VERDICTS if verdict != "pass"))
+_ORDER: tuple[Shown, ...] = ("pass", *(verdict for verdict in VERDICTS if verdict != "pass"))
 
 _FACTS: tuple[tuple[str, Callable[[ReportEntry], str]], ...] = (
     ("Profile", lambda report: report.profile),
@@ -49,7 +49,7 @@ def to_html(comparison: Comparison, folder: Path) -> str:
 
 def _unanimous(comparison: Comparison, verdict: Verdict) -> int:
     def all_say_so(row: Row) -> bool:
-        return all(cell is not None and cell.verdict == verdict for cell in row.cells)
+        return all(cell is not None and shown(cell) == verdict for cell in row.cells)
 
     return sum(map(all_say_so, comparison.rows))
 

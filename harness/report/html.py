@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.framework_body import TraceShown, framework_body, trace_shown
-from ucm_cts.harness.report.order import VERDICTS, clause_key, count, counted, roots, to_fix
+from ucm_cts.harness.report.order import VERDICTS, Shown, clause_key, count, counted, not_followed, roots, shown, to_fix
 from ucm_cts.harness.report.page import part, rendered
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
@@ -47,6 +47,11 @@ class Item:
     causes: tuple[Cause, ...]
     decisions: tuple[tuple[str, str], ...]
 
+    @property
+    def shown(self) -> Shown:
+        """Its verdict as people read it."""
+        return shown(self.result)
+
 
 def to_html(
     report: v.Report, catalogue: Sequence[Requirement], table: LifeCycleTable, interpretations: Mapping[str, str]
@@ -62,6 +67,7 @@ def to_html(
         counts=count(report.requirements),
         verdicts=VERDICTS,
         to_fix=roots(to_fix(report.requirements)),
+        not_followed=not_followed(report.requirements),
         items=_items(report, catalogue, interpretations),
         untestable=sorted(
             (entry for entry in catalogue if entry.untestable and entry.id not in reported),
@@ -83,7 +89,7 @@ def _items(report: v.Report, catalogue: Sequence[Requirement], interpretations: 
     items = {}
     # the budget goes to what should be fixed first
     for result in [*to_fix(report.requirements), *(r for r in report.requirements if r.verdict != "fail")]:
-        requirement = known.get(result.id) or Requirement(result.id, result.clause, result.title, "statement", "")
+        requirement = known.get(result.id) or Requirement(result.id, result.clause, result.title, result.level, "")
         causes = []
         for number, failed in enumerate(shortest_first(result.findings)):
             cause = _cause(failed, file_name(result.id, number), report, number < FINDINGS and left > 0)

@@ -74,6 +74,8 @@ class RequirementEntry(Entry, frozen=True):
     """One requirement of the catalogue with its verdict.
 
     ``caused_by`` is a requirement from whose violation all its failures may follow, empty if there is none.
+    ``decides``: whether it decides the verdict of the run; a recommendation (level ``should``) does not.
+    ``derived``: why it holds although the text does not say it; empty if the text says it.
     """
 
     id: str
@@ -85,6 +87,8 @@ class RequirementEntry(Entry, frozen=True):
     reason: str
     findings: tuple[FindingEntry, ...]
     caused_by: str = ""
+    decides: bool = True
+    derived: str = ""
 
 
 class IncidentEntry(Entry, frozen=True):
@@ -186,7 +190,7 @@ def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) 
     findings = enumerate(shortest_first(result.findings))
     return RequirementEntry.of(
         result,
-        level=known[result.id].level if result.id in known else "statement",
+        derived=known[result.id].derived if result.id in known else "",
         findings=tuple(_finding(failed, file_name(result.id, number)) for number, failed in findings),
     )
 

@@ -63,7 +63,12 @@ def _verdict(case: etree._Element, result: v.RequirementResult, report: v.Report
         case "fail":
             shortest = shortest_first(result.findings)
             message = shortest[0].finding.observed if shortest else result.reason
+            if not result.decides:
+                _child(case, "skipped", f"recommendation not followed: {message}", "", _story(result, report))
+                return
             _child(case, "failure", message, "fail", _story(result, report))
+        case "inconclusive" if not result.decides:
+            _child(case, "skipped", f"recommendation, inconclusive: {result.reason or 'never exercised'}")
         case "inconclusive":
             reason = result.reason or "never exercised"
             story = _story(result, report) if result.findings else f"clause {result.clause}"

@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import Protocol
+from typing import Literal
 
+from ucm_cts.harness.catalogue.requirements import decides
+from ucm_cts.harness.results.tally import Counted
 from ucm_cts.harness.results.values import FrameworkReport, Overall, Report, RequirementResult, ToolChainReport, Verdict
 
-VERDICTS: tuple[Verdict, ...] = ("fail", "error", "inconclusive", "pass", "not applicable")
-"""All verdicts, the worst first."""
+Shown = Literal[Verdict, "not followed"]
+"""A verdict as people read it: a recommendation that fails was not followed."""
 
-SYMBOLS: dict[Verdict, str] = {"fail": "✗", "error": "!", "inconclusive": "?", "pass": "✓", "not applicable": "–"}
+VERDICTS: tuple[Shown, ...] = ("fail", "error", "inconclusive", "not followed", "pass", "not applicable")
+"""All of them, the worst first."""
+
+SYMBOLS: dict[Shown, str] = {
+    "fail": "✗",
+    "error": "!",
+    "inconclusive": "?",
+    "not followed": "~",
+    "pass": "✓",
+    "not applicable": "–",
+}
 """A symbol a verdict, so that colour is never needed."""
 
 SEALS: dict[Overall, str] = {"conformant": "✓", "not conformant": "✗", "inconclusive": "?"}
@@ -37,11 +49,16 @@ def clause_key(clause: str) -> tuple[int, ...]:
 
 def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
     """Failed requirements in the order to work on them: the most frequent first, then by clause."""
+    return sorted((result for result in results if shown(result) == "fail"), key=_urgency)
 
-    def key(result: RequirementResult) -> tuple[int, tuple[int, ...], str]:
-        return -sum(failed.occurrences for failed in result.findings), clause_key(result.clause), result.id
 
-    return sorted((result for result in results if result.verdict == "fail"), key=key)
+def not_followed(results: Iterable[RequirementResult]) -> list[RequirementResult]:
+    """Recommendations that were not followed, in the same order."""
+    return sorted((result for result in results if shown(result) == "not followed"), key=_urgency)
+
+
+def _urgency(result: RequirementResult) -> tuple[int, tuple[int, ...], str]:
+    return -sum(failed.occurrences for failed in result.findings), clause_key(result.clause), result.id
 
 
 def roots(failed: Sequence[RequirementResult]) -> list[tuple[RequirementResult, list[RequirementResult]]]:
@@ -54,15 +71,12 @@ def roots(failed: Sequence[RequirementResult]) -> list[tuple[RequirementResult, 
     ]
 
 
-class HasVerdict(Protocol):
-    """A requirement's result, of a run or as it was read from a report."""
-
-    @property
-    def verdict(self) -> Verdict:
-        """Its verdict."""
+def shown(result: Counted) -> Shown:
+    """The verdict of ``result`` as people read it."""
+    return result.verdict if decides(result.level) or result.verdict != "fail" else "not followed"
 
 
-def count(results: Iterable[HasVerdict]) -> dict[Verdict, int]:
+def count(results: Iterable[Counted]) -> dict[Shown, int]:
     """How many requirements have each verdict, the worst first."""
-    verdicts = [result.verdict for result in results]
+    verdicts = [shown(result) for result in results]
     return {verdict: verdicts.count(verdict) for verdict in VERDICTS}

@@ -5,25 +5,38 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
-from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count
+from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, Shown, clause_key, count, shown
 from ucm_cts.harness.report.published import PublishedResult, PublishedVerdict, by_product
 from ucm_cts.harness.results.foreign import one_line
 
 DEPTH = 3
 """Clauses are counted to this depth of their numbers: 11.2.2.1 counts with 11.2.2."""
 
-_LEGEND = ", ".join(f"{SYMBOLS[verdict]} {verdict}" for verdict in VERDICTS)
+_ALWAYS = tuple(verdict for verdict in VERDICTS if verdict != "not followed")
+"""The verdicts that have a column in any case."""
+
+
+def _columns(results: Iterable[PublishedResult]) -> list[Shown]:
+    seen = {shown(entry) for result in results for entry in result.requirements}
+    return [verdict for verdict in VERDICTS if verdict in _ALWAYS or verdict in seen]
+
+
+def _legend(results: Iterable[PublishedResult]) -> str:
+    return ", ".join(f"{SYMBOLS[verdict]} {verdict}" for verdict in _columns(results))
 
 
 def overview(results: Sequence[PublishedResult]) -> list[str]:
     """The lines of the tables of all products: verdicts, verdicts by clause, and where frameworks differ."""
     frameworks = [result for result in results if result.profile in FRAMEWORK_PROFILES]
     toolchains = [result for result in results if result.profile not in FRAMEWORK_PROFILES]
-    rows = [(f"[{_name(r)}]({r.folder}/README.md)", r.profile, r.verdict, *_counts(r.requirements)) for r in results]
-    lines = ["## Verdicts", "", *table(("product", "profile", "verdict", *VERDICTS), rows)]
+    heads = _columns(results)
+    rows = [
+        (f"[{_name(r)}]({r.folder}/README.md)", r.profile, r.verdict, *_counts(r.requirements, heads)) for r in results
+    ]
+    lines = ["## Verdicts", "", *table(("product", "profile", "verdict", *heads), rows)]
     for title, group in ("Frameworks", frameworks), ("Tool chains", toolchains):
         if group:
-            lines += ["", f"## {title} by clause", "", f"{_LEGEND}.", "", *_by_clause(group)]
+            lines += ["", f"## {title} by clause", "", f"{_legend(results)}.", "", *_by_clause(group)]
     if len(frameworks) > 1:
         lines += ["", "## Where frameworks differ", "", *_differences(frameworks)]
     return lines
@@ -37,9 +50,10 @@ def product_page(results: Sequence[PublishedResult], others: Sequence[str] = ())
         "Made by `ucm-cts results` of the files beside it; do not edit it.",
         "",
     ]
-    rows = [(r.profile, r.verdict, *_counts(r.requirements), _stated(r), r.suite_version) for r in results]
-    lines += table(("profile", "verdict", *VERDICTS, "statement", "suite"), rows)
-    lines += ["", "## By clause", "", f"{_LEGEND}.", "", *_by_clause(results)]
+    heads = _columns(results)
+    rows = [(r.profile, r.verdict, *_counts(r.requirements, heads), _stated(r), r.suite_version) for r in results]
+    lines += table(("profile", "verdict", *heads, "statement", "suite"), rows)
+    lines += ["", "## By clause", "", f"{_legend(results)}.", "", *_by_clause(results)]
     for result in results:
         for title, found in (
             ("Failures", _failures(result)),
@@ -78,8 +92,9 @@ def _name(result: PublishedResult) -> str:
     return f"{result.product} {result.version}".strip()
 
 
-def _counts(entries: Iterable[PublishedVerdict]) -> list[str]:
-    return [str(number or "") for number in count(entries).values()]
+def _counts(entries: Iterable[PublishedVerdict], heads: Iterable[Shown]) -> list[str]:
+    counts = count(entries)
+    return [str(counts[verdict] or "") for verdict in heads]
 
 
 def _stated(result: PublishedResult) -> str:
@@ -111,7 +126,7 @@ def _differences(results: Sequence[PublishedResult]) -> list[str]:
         cells = [entries.get(entry.id) for entries in held]
         if None not in cells and {cell.verdict for cell in cells if cell} != {"pass"}:
             title = next(filter(None, (cell.title for cell in cells if cell)), "")
-            rows.append((entry.id, title, *(SYMBOLS[cell.verdict] for cell in cells if cell)))
+            rows.append((entry.id, title, *(SYMBOLS[shown(cell)] for cell in cells if cell)))
     return table(("requirement", "title", *map(_name, results)), rows)
 
 

@@ -8,20 +8,21 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
-from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, roots, to_fix
+from ucm_cts.harness.report.order import SEALS, SYMBOLS, Shown, count, counted, not_followed, roots, shown, to_fix
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incidents import is_unexplained
 from ucm_cts.harness.results.known_failures import all_known
-from ucm_cts.harness.results.values import IncidentReport, Overall, Report, RequirementResult, Verdict, incidents_of
+from ucm_cts.harness.results.values import IncidentReport, Overall, Report, RequirementResult, incidents_of
 
 SHOWN = 12
 """The number of failed requirements, and of incidents, that are listed."""
 
-_COLOURS: dict[Verdict, str] = {
+_COLOURS: dict[Shown, str] = {
     "fail": "red",
     "error": "magenta",
     "inconclusive": "yellow",
+    "not followed": "yellow",
     "pass": "green",
     "not applicable": "dim",
 }
@@ -50,6 +51,11 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
             lines.append(cut(Text.assemble(("  with it   ", "dim"), f"{names}, which may follow from it")))
     if len(failed) > SHOWN:
         lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
+    ignored = not_followed(report.requirements)
+    for result in ignored[:SHOWN]:
+        lines += [Text(), *_failure(result)]
+    if len(ignored) > SHOWN:
+        lines += [Text(), Text(f"and {len(ignored) - SHOWN} more recommendations that were not followed", "dim")]
     others = [item for item in incidents if item not in unexplained]
     if others:
         lines.append(Text())
@@ -80,7 +86,11 @@ def _counts(report: Report) -> Text:
 
 
 def _failure(result: RequirementResult) -> list[Text]:
-    head = Text.assemble(("✗ ", "red"), (result.id, "bold"), f"  {one_line(result.title)}")
+    verdict = shown(result)
+    remark = "" if result.decides else " (recommendation, not followed)"
+    head = Text.assemble(
+        (f"{SYMBOLS[verdict]} ", _COLOURS[verdict]), (result.id, "bold"), f"  {one_line(result.title)}{remark}"
+    )
     if not result.findings:
         return [cut(head), cut(Text(f"  {one_line(result.reason)}"))]
     finding = shortest_first(result.findings)[0].finding

@@ -18,6 +18,9 @@ from ucm_cts.reference_models.model.ics import TOLERANCES, Ics
 HOOKS = ("transport-fault", "connector-fault", "trace-sink", "virtual-time")
 """Options by which a vendor claims what the adapter offers for tests only; without it something stays undecided."""
 
+IMPOSSIBLE = "impossible"
+"""The value of such an option by which a vendor declares that the product has nothing to test there."""
+
 
 @dataclass(frozen=True)
 class Quantity:

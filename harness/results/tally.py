@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Protocol
 
 import msgspec
 
-from ucm_cts.harness.catalogue.requirements import Requirement
+from ucm_cts.harness.catalogue.requirements import Level, Requirement, decides
 from ucm_cts.harness.models.core_models import Comparison
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import reading_length, shortest_first
@@ -187,7 +188,8 @@ class Tally:
             exercised,
             findings,
             reason,
-            causes[0] if causes and all(causes) else "",
+            caused_by=causes[0] if causes and all(causes) else "",
+            level=requirement.level,
         )
 
     def _verdict(self, requirement: str, failures: Sequence[v.ReportedFinding], fails: bool) -> tuple[v.Verdict, str]:
@@ -219,10 +221,25 @@ def _repeatable(evidence: v.Evidence | None) -> object:
     return evidence.execution if isinstance(evidence, v.TraceEvidence) else evidence
 
 
-def overall(results: Sequence[v.RequirementResult], incidents: Sequence[v.IncidentReport]) -> v.Overall:
-    """Not conformant if any requirement failed; conformant if all passed and there was no incident."""
-    if any(r.verdict == "fail" for r in results):
+class Counted(Protocol):
+    """A requirement's result, of a run or as it was read from a report."""
+
+    @property
+    def verdict(self) -> v.Verdict:
+        """Its verdict."""
+
+    @property
+    def level(self) -> Level:
+        """Its level."""
+
+
+def overall(results: Sequence[Counted], incidents: Sequence[object]) -> v.Overall:
+    """Not conformant if any requirement failed; conformant if all passed and there was no incident. Recommendations do not
+    count.
+    """
+    deciding = [result.verdict for result in results if decides(result.level)]
+    if "fail" in deciding:
         return "not conformant"
-    if incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:
+    if incidents or "inconclusive" in deciding or "error" in deciding or not deciding:
         return "inconclusive"
     return "conformant"

@@ -7,6 +7,7 @@ from typing import Literal
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.catalogue.requirements import Level, decides
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.reference_models.findings import Finding
 
@@ -14,7 +15,7 @@ Verdict = Literal["pass", "fail", "inconclusive", "not applicable", "error"]
 """A requirement's verdict, in the words of ISO/IEC 9646 (docs/verdicts.md)."""
 
 Overall = Literal["conformant", "not conformant", "inconclusive"]
-"""A run's verdict: not conformant if any requirement failed, conformant if all that apply passed."""
+"""A run's verdict: not conformant if any requirement that decides failed, conformant if all of them that apply passed."""
 
 IncidentKind = Literal[
     "crash",
@@ -132,6 +133,7 @@ class RequirementResult(Value, frozen=True):
     """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``.
 
     ``caused_by``: a requirement whose violation comes before each of its failures, so that they may follow from it.
+    A recommendation (level ``should``) that fails was not followed: it does not decide the verdict of the run.
     """
 
     id: str
@@ -142,6 +144,12 @@ class RequirementResult(Value, frozen=True):
     findings: tuple[ReportedFinding, ...] = ()
     reason: str = ""
     caused_by: str = ""
+    level: Level = "shall"
+
+    @property
+    def decides(self) -> bool:
+        """Does it decide the verdict of the run?"""
+        return decides(self.level)
 
 
 class TransitionResult(Value, frozen=True):

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import ucm_cts
 from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.selftest.cheat_trials import all_cheats, examine_cheat
 from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
@@ -105,7 +106,7 @@ def _by_name(result: Result) -> str:
 
 def testable() -> tuple[str, ...]:
     """The requirements that a property or a check of core models verifies, without permissions: nothing breaks those."""
-    checks = PROPERTIES.keys() | CHECKS.keys()
+    checks = PROPERTIES.keys() | CHECKS.keys() | HOST_CHECKS.keys()
     return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in checks for rule in r.rules))
 
 

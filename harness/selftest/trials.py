@@ -20,6 +20,7 @@ from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, VARIANTS, Mutant
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -233,9 +234,9 @@ def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_
 def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: Execution) -> bool:
     """Whether the finding is about a difference between the mutant and its model.
 
-    An incident always is. Where only the statement is wrong, the finding must vanish under the statement of the model.
+    An incident always is, and what a host's process holds. Where only the statement is wrong, the finding must vanish under the statement of the model.
     """
-    if execution.incident is not None:
+    if execution.incident is not None or finding.rule in HOST_CHECKS:
         return True
     right = _right_traces(subject.model, seed).of(execution.scenario)
     parted = divergence(execution.scenario, right, execution.trace)

@@ -14,7 +14,7 @@ from ucm_cts.harness.catalogue.requirements import Need, Requirement, load_capab
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.harness.results.statement import HOOKS, Statement, default_statement
+from ucm_cts.harness.results.statement import HOOKS, IMPOSSIBLE, Statement, default_statement
 from ucm_cts.harness.results.values import Verdict
 
 Cases = tuple[tuple[str, Scenario], ...]
@@ -44,7 +44,7 @@ def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, st
         missing.append((_WITH_MODELS,))
     if not missing:
         return None
-    of_tests = [all(need.partition("=")[0] in HOOKS for need in needs) for needs in missing]
+    of_tests = [any(_is_test_operation(need, statement) for need in needs) for needs in missing]
     verdict: Verdict = "inconclusive" if all(of_tests) else "not applicable"
     decisive = missing[of_tests.index(True)] if all(of_tests) else missing[of_tests.index(False)]
     said = f"{statement.source} says" if statement.source else "without a statement it holds that"
@@ -62,6 +62,12 @@ def lacking_claims(statement: Statement, profile: str) -> Mapping[str, str]:
                 lacking.setdefault(requirement, set()).update(missing)
             found.update(() if missing else purpose.requirements)
     return {requirement: ", ".join(sorted(parts)) for requirement, parts in lacking.items() if requirement not in found}
+
+
+def _is_test_operation(need: str, statement: Statement) -> bool:
+    """Would the adapter only have to offer it?"""
+    option = need.partition("=")[0]
+    return option in HOOKS and statement.readings[option] != IMPOSSIBLE
 
 
 _ON_COMPONENTS = "protected-active-applicability=onComponent"

@@ -21,6 +21,7 @@ from ucm_cts.harness.results.tally import Tally, overall
 from ucm_cts.harness.results.values import Effort, FactEvidence, ToolChainReport
 from ucm_cts.harness.toolchains.commands.description import Task
 from ucm_cts.harness.toolchains.commands.processing import Processor, Response
+from ucm_cts.harness.toolchains.idl import omniidl
 from ucm_cts.reference_models.findings import Finding
 
 TASKS: dict[str, Task] = {"pim": "check", "idl": "idl", "cpp11": "cpp11", "cpp03": "cpp03"}
@@ -94,6 +95,8 @@ class ToolChainCampaign:
         self._tally = Tally()
         for requirement, reason in examination.not_applicable.items():
             self._tally.settle(requirement, "not applicable", reason)
+        if profile == "idl" and omniidl.missing():  # a pass must not depend on what is installed
+            self._tally.settle(omniidl.ASKED_ABOUT, "inconclusive", omniidl.missing())
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._measures: Counter[str] = Counter()
         self._began = time.monotonic()

@@ -27,6 +27,8 @@ _PROTECTIONS: dict[str, Protection] = {
 }
 
 
+_KNOWN = {*_PROTECTIONS, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE}
+
 _RUNS_APART = "R-10.1.3.2-05"
 _RUN_AND_PORTS, _MANAGED_PORTS, _WHOLE_COMPONENT = "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10"
 _PASSIVE, _EXECUTIONS_APART = "R-10.1.3.2-13", "R-10.1.3.2-16"
@@ -298,6 +300,16 @@ def is_contradictory(declaration: Declaration) -> bool:
         return False
     applied = [p for p in declaration.policies if p.definition in _PROTECTIONS]
     return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
+
+
+def is_guarded(ics: Ics, *executions: Execution) -> bool:
+    """Must the container keep these executions apart, or did the test enter through a reference that is declared unprotected?"""
+    return ics.reading("raw-references") != "unprotected" or not any(e.call and e.call.by == "test" for e in executions)
+
+
+def has_unknown_policy(declaration: Declaration) -> bool:
+    """Has the component a policy that the core does not define?"""
+    return any(p.definition not in _KNOWN for p in declaration.policies)
 
 
 def call_guarantees(declaration: Declaration, port: str) -> tuple[str, ...]:

@@ -131,6 +131,8 @@ class Interactions:
         member = self._runtime.members.get(step.id)
         if member is None:
             return
+        for replaced in link.live("server") if step.role == "server" and self._runtime.replaces_servers else ():
+            replaced.until = begin.n
         end = End(step.role, member, step.port, begin.n)
         if step.role in SENDERS:
             end.connection = Connection(link.name, NO_ID, member, step.port, "opaque", None)

@@ -57,6 +57,29 @@ class LinkState:
 
     @property
     def is_proper(self) -> bool:
-        """Has it both sides, and no second server? Clients without server are not connected, and that is all."""
+        """Has it both sides, no second server, and ends of its interface only? Clients without server are not connected, and
+        that is all.
+        """
         whole = bool(self.live(*SENDERS) and self.live(*TAKERS))
-        return (whole or bool(self.live("client"))) and len(self.live("server")) < 2
+        return (whole or bool(self.live("client"))) and len(self.live("server")) < 2 and not self.misfits
+
+    @property
+    def misfits(self) -> list[End]:
+        """The ends whose port element has another interface."""
+        return [e for e in self.live(*SENDERS, *TAKERS) if interface_of(e.member, e.port) != self.interface]
+
+
+def interface_of(member: Member, port: str) -> str:
+    """The name of the interface of a port element; empty for the probes' usual one."""
+    return member.declaration.ports.get(port, "")
+
+
+def is_misfit(connection: Connection) -> bool:
+    """Do its two ends have different interfaces?"""
+    provider = connection.provider
+    return provider is not None and differ(connection.client, connection.port, provider, connection.provided)
+
+
+def differ(client: Member, required: str, provider: Member, provided: str) -> bool:
+    """Do the two port elements have different interfaces?"""
+    return interface_of(client, required) != interface_of(provider, provided)

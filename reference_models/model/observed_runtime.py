@@ -19,6 +19,8 @@ class ObservedRuntime(Runtime):
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
         super().__init__(scenario)
         self.ics = ics or Ics()
+        self.shares_ids = self.ics.reading("id-scope") == "runtime"
+        self.replaces_servers = self.ics.reading("second-server") == "replace"
         self.executions = Executions(self) if interacting else _NO_EXECUTIONS
         self.interactions = Interactions(self) if interacting else _NO_INTERACTIONS
         self.service_calls: list[ServiceCall] | None = None

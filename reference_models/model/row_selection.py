@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.reference_models.model.executions import is_contradictory
+from ucm_cts.reference_models.model.executions import has_unknown_policy, is_contradictory
 from ucm_cts.reference_models.model.expected_callbacks import Listener
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
+from ucm_cts.reference_models.model.links import differ, is_misfit
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Connection, Container, Member, raises
@@ -100,7 +101,8 @@ class RowSelection:
         )
         ongoing.unclear_if(container.started is None or (declaration is not None and raises(declaration, *unforeseen)))
         ongoing.unclear_if(
-            declaration is not None and (is_contradictory(declaration) or has_several_clocks(declaration))
+            declaration is not None
+            and (is_contradictory(declaration) or has_several_clocks(declaration) or has_unknown_policy(declaration))
         )
         if declaration is not None and declaration.policies:
             ongoing.forgiving = True  # whether the policy is supported is policy_supported's matter
@@ -179,6 +181,8 @@ class RowSelection:
             provider is not None and provider.gone and ongoing.roles[-1][1].condition != "provider already removed"
         )
         ongoing.unclear_if(provider is not None and provider.doubtful)
+        provided = runtime.ports.get(step.to, "")
+        ongoing.unclear_if(provider is not None and differ(member, step.port, provider, provided))
 
     def _kind_of_connection(self, member: Member, step: s.Connect, provider: Member | None) -> str:
         if member.live_connections(step.port):
@@ -223,7 +227,9 @@ class RowSelection:
         cascades = container.name == s.MANAGER
         members = container.live_members()
         started = container.started
-        if runtime.interactions.improper(None if cascades else container):
+        reached = [m for c in runtime.containers.values() for m in c.live_members()] if cascades else members
+        connections = (c for m in reached for c in m.connections if c.live is not False)
+        if runtime.interactions.improper(None if cascades else container) or any(map(is_misfit, connections)):
             ongoing.forgiving = True
         ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:

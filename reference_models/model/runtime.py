@@ -258,6 +258,8 @@ class Runtime:
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
         self.destroyed = False
+        self.shares_ids = False
+        self.replaces_servers = False
         self.changes = 0
         self.behind: dict[tuple[tuple[str, int], str], Behind] = {}
 
@@ -300,7 +302,7 @@ class Runtime:
     def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
         """The live instance that the id in ``variable`` designates in ``container``, else None and why.
 
-        The manager may know the members of its sub-containers.
+        The manager may know the members of its sub-containers, and every container those of all if ids are shared.
         """
         if variable == UNKNOWN or variable not in self.members:
             return None, "never existed"
@@ -310,12 +312,13 @@ class Runtime:
                 return member, ""
         if wanted.gone:
             return None, "already removed"
-        return (wanted, "") if container.name == MANAGER else (None, "of another container")
+        known = container.name == MANAGER or self.shares_ids
+        return (wanted, "") if known else (None, "of another container")
 
     def find_connection(self, container: Container, variable: str) -> tuple[Connection | None, str]:
         """The connection, perhaps undone already, that the id in ``variable`` designates in ``container``, else None and why.
 
-        The manager may know the connections of its sub-containers.
+        The manager may know the connections of its sub-containers, and every container all of them if ids are shared.
         """
         if variable == UNKNOWN or variable not in self.connections:
             return None, "never existed"
@@ -326,7 +329,8 @@ class Runtime:
                 return connection, ""
         if wanted.live is False:
             return None, "already undone"
-        return (wanted, "") if container.name == MANAGER else (None, "of another container")
+        known = container.name == MANAGER or self.shares_ids
+        return (wanted, "") if known else (None, "of another container")
 
     def all_connections(self) -> Iterator[Connection]:
         """Every connection, but for those of removed instances that are undone."""

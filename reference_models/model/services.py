@@ -152,7 +152,8 @@ def led_astray(runtime: ObservedRuntime, one: ServiceCall) -> Delivery | None:
     for delivery in runtime.interactions.deliveries:
         enter = delivery.enter
         same = (enter.method, enter.arguments) == (request.method, request.arguments)
-        if delivery.call is None and same and request.n < enter.n < one.over:
+        known = delivery.call is None or (delivery.call is one.call and delivery not in one.served)
+        if known and same and request.n < enter.n < one.over:
             return delivery
     return None
 

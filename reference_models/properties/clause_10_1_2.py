@@ -16,6 +16,7 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 
 _CODES, _OK_IF_WELL, _OK_IS_TRUE = "R-10.1.2-02", "R-10.1.2-09", "R-10.1.2-10"
 _INTERNAL, _TRANSMISSION = "R-10.1.2-11", "R-10.1.2-12"
+_SERVED = "R-10.1.5.1-01"
 
 _DUE = {"transport": _TRANSMISSION, "inside": _INTERNAL}
 
@@ -162,7 +163,7 @@ def delivered_before_ok(check: Property, runtime: ObservedRuntime, call: MethodC
         yield _violate(check, call, expected, "not yet", "push returned before")
 
 
-@property_at("completed", "R-10.1.2-01", timed=True)
+@property_at("completed", "R-10.1.2-01", _SERVED, timed=True)
 def failure_noticed(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """While its connector is known to be broken an interaction does not seem to succeed."""
     if call.link is None or not call.broken or call.reply is None:
@@ -190,7 +191,7 @@ def _failed_request(check: Property, runtime: ObservedRuntime, call: MethodCall)
         taken, reading = _is_still_broken(call) or (yield from takes(runtime, "service-failure", "wait")), "wait"
     else:
         expected = "does not return as if its server had answered: the connection is broken"
-        yield _violate(check, call, expected, "invented result")
+        yield _violate(check, call, expected, "invented result", requirement=_SERVED)
         return
     if taken:
         yield check.kept()

@@ -44,6 +44,28 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
     return ()
 
 
+@property_at("ended", "R-9.4.3.2-06", at=("add_component", "start"), feature="policies")
+def unknown_policy_refused(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
+    """A component with a policy that the framework does not know is refused, at the latest when it is to be started."""
+    if runtime.ics.reading("unknown-policy") != "refused":
+        return
+    if isinstance(ongoing.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(ongoing.step.component)
+        if declaration is not None and ex.has_unknown_policy(declaration) and isinstance(ongoing.end, Raise):
+            yield check.kept()
+        return
+    members = [m for m in ongoing.container.live_members() if ex.has_unknown_policy(m.declaration)]
+    if members and isinstance(ongoing.end, Raise):
+        yield check.kept()
+    elif members:
+        yield check.fail(
+            "started",
+            expected=f"'{members[0].lane}', which has a policy that no framework knows, is not started",
+            observed="start returned",
+            event=ongoing.end,
+        )
+
+
 def _treated(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, option: str, reading: str, who: str
 ) -> Conclusions:
@@ -196,6 +218,8 @@ def no_overlap_under_stress(check: Property, runtime: ObservedRuntime, event: St
         return
     ports = [runtime.ports[ref] for ref in step.refs]
     requirement = ex.exclusion(member.declaration, runtime.ics, ports[0], ports[-1])
+    if runtime.ics.reading("raw-references") == "unprotected":
+        return
     if not requirement:
         if event.overlaps and ex.protection_of(member.declaration) == "unprotected":
             yield check.kept("R-10.1.3.2-20")

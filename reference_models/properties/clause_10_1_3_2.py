@@ -26,7 +26,7 @@ _SUPPORT = {
     "passive": "R-10.1.3.1-14",
     "unprotected": "R-10.1.3.1-15",
 }
-_BY_ITSELF = {"passive": "R-10.1.3.2-14", "unprotected": "R-10.1.3.2-19"}
+_BY_ITSELF = {"passive": "R-10.1.3.2-14", "unprotected": "R-10.1.3.2-19", "active": "R-10.1.3.2-24"}
 
 _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
@@ -39,7 +39,7 @@ def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Executio
     declaration = runtime.scenario.components[enter.component]
     for other in execution.met:
         requirement = ex.exclusion(declaration, runtime.ics, execution.way, other.way)
-        if requirement:
+        if requirement and ex.is_guarded(runtime.ics, execution, other):
             yield check.fail(
                 f"{other.way} {execution.way}",
                 expected=f"nothing else executes '{lane(*enter.body)}' while its {other.way} is executed",
@@ -177,7 +177,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
 def no_self_execution(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: ex.BusinessCall | None
 ) -> Concluded:
-    """A passive component is executed only when it is called."""
+    """A passive or active component is executed only when it is called."""
     member = runtime.bodies.get(event.body)
     requirement = _BY_ITSELF.get(ex.protection_of(member.declaration), "") if member is not None else ""
     if member is None or not requirement or member.suspended:
@@ -213,7 +213,7 @@ def policy_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
 def _refused(check: Property, declaration: Declaration, end: Raise) -> Conclusions:
     requirement = _SUPPORT.get(ex.protection_of(declaration), "")
     excused = ex.is_contradictory(declaration) or len(ex.managed_ports(declaration)) > 1  # may count as two policies
-    excused = excused or bool(policies_of(declaration, *SERVICES))  # may be the reason
+    excused = excused or bool(policies_of(declaration, *SERVICES)) or ex.has_unknown_policy(declaration)
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
         expected = f"a component with the policy {declaration.policies[0].definition} is added"
         yield check.refused("add_component", end, expected=expected, requirement=requirement)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Raise, Reply
-from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
+from ucm_cts.adapters.contract.trace import Raise, Reply, Return
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.designation import designation
 from ucm_cts.reference_models.model.links import LinkState
@@ -50,7 +50,7 @@ def _undisturbed(runtime: ObservedRuntime) -> list[tuple[ServiceCall, Trouble]]:
     return [(one, trouble) for one, trouble in judged if one.call not in altered]
 
 
-@property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE)
+@property_at("closed", _CALLS, _CLIENTS, _OWN, _ONE_SERVER, _INHERITED, _TEMPLATE)
 def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call enters the connected server once, at the method called, and comes back as the server was left."""
     judged = _undisturbed(runtime)
@@ -70,7 +70,13 @@ def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
             yield _violate(check, _CALLS, trouble, one, expected, observed)
         elif trouble in ("not served", "elsewhere", "failed"):
             observed = _what_failed(runtime, one, trouble)
-            yield _violate(check, _concerned(runtime, one, good), trouble, one, expected, observed)
+            spoilt = trouble == "failed" and any(
+                one.meets(o) and o.exit is not None and o.exit.failed for o, _ in judged
+            )
+            requirement = _OWN if spoilt else _concerned(runtime, one, good)
+            astray = led_astray(runtime, one) if trouble == "elsewhere" else None
+            further = (astray.enter.n,) if astray is not None else ()
+            yield _violate(check, requirement, trouble, one, expected, observed, *further)
 
 
 @property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
@@ -289,6 +295,9 @@ def _attached(check: Property, runtime: ObservedRuntime, link: LinkState, step: 
     member = runtime.members.get(step.id)
     if member is None or member.suspended or member.declaration.ports.get(step.port) != link.interface:
         return ()
+    last = link.ends[-1].since if link.ends else None
+    if runtime.replaces_servers and isinstance(end, Return) and any(e.until == last for e in link.ends):
+        return (Taken("second-server", "replace"), check.kept(_ONE_SERVER))
     before = [e for e in link.ends if e.until is None and (e.member, e.port) != (member, step.port)]
     servers = [e for e in before if e.role == "server"]
     if step.role == "server" and servers and step.port in member.declaration.provides:
@@ -348,10 +357,12 @@ def _started(check: Property, ongoing: OperationInProgress, observed: str) -> Fi
     )
 
 
-def _violate(check: Property, requirement: str, cause: str, one: ServiceCall, expected: str, observed: str) -> Finding:
+def _violate(
+    check: Property, requirement: str, cause: str, one: ServiceCall, expected: str, observed: str, *further: int
+) -> Finding:
     request, reply = one.call.request, one.call.reply
     client, server = lane(*request.body), one.server.member.lane
-    events = (request.n, *(d.enter.n for d in one.served), *((reply.n,) if reply is not None else ()))
+    events = (request.n, *further, *(d.enter.n for d in one.served), *((reply.n,) if reply is not None else ()))
     return check.fail(
         cause,
         expected=f"the call of {request.method} by '{client}' {expected}",

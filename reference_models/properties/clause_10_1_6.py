@@ -8,7 +8,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, 
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import messages as msg
 from ucm_cts.reference_models.model.designation import designation, error_name
-from ucm_cts.reference_models.model.links import End, LinkState
+from ucm_cts.reference_models.model.links import End, LinkState, interface_of
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
@@ -212,6 +212,8 @@ def message_connector(
         known = step.port in ports.get(step.role, ())
         if member is None or member.gone or member.suspended or not known or member.live_connections(step.port):
             return ()
+        if interface_of(member, step.port) != link.interface:
+            return ()  # compatible_attachment's matter
         if step.role == "emitter" and not link.live("receiver") and end.error in ("UCM_ERROR", "BAD_PARAMETER"):
             return ()  # refused_attachment's matter
         several = _EMITTERS if step.role == "emitter" else _RECEIVERS

@@ -44,6 +44,25 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
         yield _holds_others(check, _ATTRIBUTES, declaration, [a for a in wrong if a in typed], callback)
 
 
+@property_at("entered", "R-11.2.3-19", at=("on_init",))
+def own_attributes_only(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
+    """On entry to on_init the body holds no attribute that its type does not have."""
+    event = callback.event
+    declaration = runtime.scenario.components.get(event.component)
+    if callback.history.initialised or declaration is None:
+        return ()
+    extra = [name for name in event.attributes or {} if name not in declaration.attributes]
+    if not extra:
+        return check.kept()
+    has = ", ".join(list(declaration.attributes)[:_SHOWN]) or "none"
+    return check.fail(
+        "extra",
+        expected=f"'{callback.event.component}' is given attributes of its type only: {has}",
+        observed=f"its attribute {extra[0]!r} was set, which it does not have",
+        during=(callback.ongoing, event),
+    )
+
+
 def _is_configured(held: str | None, configured: str) -> bool:
     """Is it what was configured? A value of a type may have been read, and spelled anew."""
     value, own = read_spelled(configured), read_spelled(held)
@@ -134,15 +153,16 @@ def disconnect_arguments(check: Property, runtime: ObservedRuntime, callback: Ca
 
 @property_at("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), feature="fragments")
 def container_interface(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
-    """A fragment gets its container's interface exactly once, before on_startup."""
+    """A fragment gets its container's interface before on_startup, and once unless declared otherwise."""
     event, _, ongoing, history = callback
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.fragment:
         return ()
     given = history.interfaces
     first_start = event.hook == "on_startup" and not history.begun
-    again = event.hook == "set_container_interface" and given > 0
-    if first_start and given == 1:
+    may_come_again = runtime.ics.reading("container-interface") == "repeated"
+    again = event.hook == "set_container_interface" and given > 0 and not may_come_again
+    if first_start and (given == 1 or (given and may_come_again)):
         return check.kept()
     if again or (first_start and given == 0):
         return check.fail(

@@ -23,6 +23,7 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_11_2_2,
     clause_11_2_3,
     clause_11_2_3_calls,
+    clause_11_2_3_interfaces,
     declared_choices,
     handed_over,
 )

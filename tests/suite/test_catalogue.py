@@ -14,6 +14,7 @@ from ucm_cts.harness.catalogue.requirements import (
     load_life_cycle,
     load_requirements,
 )
+from ucm_cts.harness.execution.leftovers import FREED, HOST_CHECKS
 from ucm_cts.harness.models.core_models import CHECKS, checked
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.selection import load_purposes
@@ -21,7 +22,12 @@ from ucm_cts.harness.toolchains.examinations import TOOLCHAIN_CHECKS, stand_for
 from ucm_cts.reference_models.properties.table import PROPERTIES
 
 REQUIREMENTS = {r.id: r for r in load_requirements()}
-STANDS_FOR = {rule.name: rule.stands_for for rule in PROPERTIES.values()} | checked() | stand_for()
+STANDS_FOR = (
+    {rule.name: rule.stands_for for rule in PROPERTIES.values()}
+    | checked()
+    | stand_for()
+    | dict.fromkeys(HOST_CHECKS, (FREED,))
+)
 INTERPRETATIONS = {i.id: i for i in load_interpretations()}
 
 NOT_FROM_THE_TABLE = {
@@ -86,7 +92,7 @@ def test_offered_profile_has_nothing_pending(profile: str) -> None:
 
 def test_rules_stand_for_known_requirements_that_name_them() -> None:
     assert not PROPERTIES.keys() & CHECKS.keys()
-    assert STANDS_FOR.keys() == PROPERTIES.keys() | CHECKS.keys() | TOOLCHAIN_CHECKS.keys()
+    assert STANDS_FOR.keys() == PROPERTIES.keys() | CHECKS.keys() | TOOLCHAIN_CHECKS.keys() | HOST_CHECKS.keys()
     for rule, requirements in STANDS_FOR.items():
         for requirement in requirements:
             assert rule in REQUIREMENTS[requirement].rules, f"{requirement} does not name {rule}"
@@ -117,3 +123,12 @@ def test_purposes_name_testable_requirements_and_are_unique() -> None:
         assert purpose.requirements
         for requirement in purpose.requirements:
             assert REQUIREMENTS[requirement].rules, f"{purpose.id}: {requirement}"
+
+
+@pytest.mark.parametrize("clause", ["10", "11", "12.10"])
+def test_levels_of_the_platform_say_what_decides(clause: str) -> None:
+    """What a product can contradict is an obligation; what is derived gives its reason and is tested."""
+    of_clause = [r for r in REQUIREMENTS.values() if r.clause == clause or r.clause.startswith(f"{clause}.")]
+    assert not [r.id for r in of_clause if r.level == "statement" and r.rules]
+    assert {r.id for r in of_clause if r.level == "may" and r.rules} <= {"R-10.1.3.2-20", "R-10.1.6.1-07"}
+    assert not [r.id for r in of_clause if r.derived and not r.rules]

@@ -166,14 +166,20 @@ class Link:
         container._check_configuring()
         if container._is_connected(member, port):
             raise pm.UcmError(f"{port!r} is connected already")
+        self._check_compatible(member, port)
         container._connect_to(member, port, LinkElement(self))
 
     def _attach_taker(self, member: Member, port: str) -> None:
         if port not in member.implementation.provides:
             raise pm.NotFound(f"no provided port element {port!r}")
         member.container._check_configuring()
+        self._check_compatible(member, port)
         self._check_room()
         self.takers.append(Taker(member, port))
+
+    def _check_compatible(self, member: Member, port: str) -> None:
+        if member.implementation.interfaces.get(port) != self.interface:
+            raise pm.BadParameter(f"{port!r} has another interface than the connection")
 
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR and self.takers:

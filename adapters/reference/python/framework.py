@@ -14,6 +14,7 @@ import threading
 from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
+from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.reference.python.connectors import Link, UsesConnectors
 from ucm_cts.adapters.reference.python.container_services import OffersServices, Record
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
@@ -74,6 +75,7 @@ class Container(OffersServices, UsesConnectors):
             self._check_configuring()
             if self._is_connected(member, port_name):
                 raise pm.UcmError(f"{port_name!r} is connected already")
+            self._check_compatible(member, port_name, to_port)
             return self._connect_to(member, port_name, to_port)
 
     def disconnect(self, connection: int) -> None:
@@ -117,6 +119,22 @@ class Container(OffersServices, UsesConnectors):
             raise pm.UcmError(f"{name!r} has no attribute {min(unknown)!r}")
         self._check_policies(implementation)
         return implementation
+
+    def _check_compatible(self, member: Member, port: str, target: pm.PortElementObject) -> None:
+        """Both ends of a connection have the same interface (11.2.3)."""
+        provided = self._interfaces_of(target)
+        if provided and member.implementation.interfaces.get(port) not in provided:
+            raise pm.BadParameter(f"the reference has another interface than {port!r}")
+
+    def _interfaces_of(self, target: pm.PortElementObject) -> list[Interface | None]:
+        """The interface of a provided port element, None for the usual one; nothing for an unknown reference."""
+        return [
+            member.implementation.interfaces.get(port)
+            for container in (self.manager, *self.manager.sub_containers)
+            for member in container.members.values()
+            for port in member.implementation.provides
+            if self._reference_to(member, port) is target
+        ]
 
     def _check_startable(self) -> None:
         """A container starts only if all its members are configured, so that it never starts a part of them."""

@@ -41,11 +41,20 @@ class Opinion:
     reason: str = ""
 
 
+ASKED_ABOUT = "R-12.1-03"
+"""The requirement that omniidl helps to decide."""
+
+
+def missing() -> str:
+    """Why omniidl cannot be asked at all; empty if it can."""
+    return "" if shutil.which("omniidl") else "omniidl is not installed; Debian's package is omniidl"
+
+
 def opinion(files: Mapping[str, str]) -> Opinion:
     """What omniidl thinks of ``files`` (name to text), taken together in the order of their includes."""
     program = shutil.which("omniidl")
     if program is None:
-        return Opinion("none", reason="omniidl is not installed; Debian's package is omniidl")
+        return Opinion("none", reason=missing())
     read = read_files(files)
     if read.problems:
         return Opinion("none", reason=f"not read by the suite: {read.problems[0]}")

@@ -7,6 +7,7 @@ from pipeline import failing_requirements
 
 from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant, mutants_of
 from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.reference_models.properties.table import PROPERTIES
 
 pytestmark = pytest.mark.slow
@@ -23,7 +24,8 @@ def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
 
 def test_every_testable_requirement_has_a_mutant() -> None:
     broken = {requirement for mutant in MUTANTS.values() for requirement in mutant.requirements}
-    testable = {r.id for r in load_requirements() if any(rule in PROPERTIES for rule in r.rules)}
+    checks = PROPERTIES.keys() | HOST_CHECKS.keys()
+    testable = {r.id for r in load_requirements() if any(rule in checks for rule in r.rules)}
     permissions = {r.id for r in load_requirements() if r.level == "may"}  # nothing can break them
     assert testable - broken - permissions == set()
     assert broken <= testable

@@ -277,7 +277,20 @@ def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
         *("measures", "seconds_by_clause", "runs"),
     ]
     failed = {entry["id"]: entry for entry in document["requirements"]}["R-11.1.3-01"]
-    assert list(failed) == ["id", "clause", "title", "level", "verdict", "exercised", "reason", "findings", "caused_by"]
+    keys = [
+        "id",
+        "clause",
+        "title",
+        "level",
+        "verdict",
+        "exercised",
+        "reason",
+        "findings",
+        "caused_by",
+        "decides",
+        "derived",
+    ]
+    assert list(failed) == keys
     finding = failed["findings"][0]
     assert finding["replay"] == "failures/R-11.1.3-01.json"
     assert [event["kind"] for event in finding["events"]] == ["reply"]

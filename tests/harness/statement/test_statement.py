@@ -36,7 +36,9 @@ ADAPTER = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 REQUIREMENTS = {r.id: r for r in load_requirements()}
 CORE_REQUIREMENTS = [r for r in load_requirements() if r.profile == "core" and not r.untestable]
 PARTS = [capability.id for capability in load_capabilities().capabilities]
-EVERYTHING = {hook: "hook" for hook in HOOKS}
+ASKED = {"unknown-policy": "refused", "incompatible-ends": "refused"}
+"""Readings of which only those who declare them are asked anything."""
+EVERYTHING = {hook: "hook" for hook in HOOKS} | ASKED
 
 
 def stating(capabilities: dict[str, bool] | None = None, **changes: object) -> Statement:
@@ -204,7 +206,7 @@ def test_everything_applies_if_everything_is_claimed() -> None:
     everything = stating()
     assert [r.id for r in load_requirements() if why_not(r, everything)] == []
     assert lacking_claims(everything, "core") == {}
-    readings = tuple(f"{hook}=hook" for hook in HOOKS)
+    readings = tuple(f"{option}={value}" for option, value in EVERYTHING.items())
     assert len(purposes_for(everything, "core")) == len(load_purposes("core", *readings))
     reduced, whole = purposes_for(default_statement(), "container"), load_purposes("container")
     assert [(p.id, p.scenarios) for p in reduced] == [(p.id, p.scenarios) for p in whole]
@@ -212,13 +214,17 @@ def test_everything_applies_if_everything_is_claimed() -> None:
 
 def test_without_test_operations_only_their_requirements_are_left() -> None:
     default = default_statement()
+    of_declared = ("R-9.4.3.2-06", "R-11.2.3-18")
     unmet = {r.id: why_not(r, default) for r in CORE_REQUIREMENTS if why_not(r, default)}
+    assert {r: unmet.pop(r, ("", ""))[0] for r in of_declared} == dict.fromkeys(  # type: ignore[index]
+        of_declared, "not applicable"
+    )
     assert {verdict for verdict, _ in filter(None, unmet.values())} == {"inconclusive"}
     assert lacking_claims(default, "core").keys() <= unmet.keys()
     steps = [step for p in purposes_for(default, "core") for _, scenario in p.scenarios for step in scenario.steps]
     assert not [step for step in steps if isinstance(step, s.Break | s.ReadLog)]
     exercised = {r for p in purposes_for(default, "core") for r in p.requirements}
-    behavioural = {r.id for r in CORE_REQUIREMENTS if not set(r.rules) <= CHECKS.keys()}
+    behavioural = {r.id for r in CORE_REQUIREMENTS if not set(r.rules) <= CHECKS.keys() and r.id not in of_declared}
     assert behavioural - exercised - unmet.keys() <= behavioural - {
         r for p in load_purposes("core") for r in p.requirements
     }
@@ -244,6 +250,20 @@ def test_readings_may_make_requirements_not_apply() -> None:
     built_in = stating(readings={"core-models": "built-in"})
     of_models = {r.id for r in CORE_REQUIREMENTS if set(r.rules) <= CHECKS.keys()}
     assert {r.id for r in CORE_REQUIREMENTS if why_not(r, built_in)} == of_models
+
+
+@pytest.mark.parametrize(
+    ("transport", "connector", "verdict"),
+    [
+        ("impossible", "hook", None),
+        ("impossible", "impossible", "not applicable"),
+        ("impossible", "none", "inconclusive"),
+    ],
+)
+def test_what_cannot_fail_need_not_be_broken(transport: str, connector: str, verdict: str | None) -> None:
+    stated = stating(readings={"transport-fault": transport, "connector-fault": connector})
+    verdicts = {r: (why_not(REQUIREMENTS[r], stated) or (None,))[0] for r in ("R-10.1.2-01", "R-10.1.2-12")}
+    assert verdicts == {"R-10.1.2-01": verdict, "R-10.1.2-12": "not applicable"}
 
 
 def test_patience_is_the_vendors() -> None:

@@ -17,7 +17,7 @@ from ucm_cts.harness.toolchains.idl.language.reading import (
 )
 from ucm_cts.harness.toolchains.idl.language.scopes import build
 from ucm_cts.harness.toolchains.idl.language.values import Worth, worth
-from ucm_cts.harness.toolchains.idl.omniidl import opinion, without_annotations
+from ucm_cts.harness.toolchains.idl.omniidl import missing, opinion, without_annotations
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotation,
     ArrayOf,
@@ -279,3 +279,9 @@ def test_omniidl_checks_the_idl_that_it_knows() -> None:
     assert (wrong.problems[0].file, wrong.problems[0].line) == ("b.idl", 3)
     for text in ("module t<typename T> { };", "typedef int8 t;", '#include "c.idl"', "typedef long;"):
         assert opinion({"a.idl": text}).verdict == "none"
+
+
+def test_a_missing_omniidl_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    assert "not installed" in missing()
+    assert opinion({"a.idl": "typedef octet t;"}).verdict == "none"

@@ -9,9 +9,9 @@ from typing import ClassVar
 
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum, Interface
-from ucm_cts.adapters.contract.programming_model import DeclaredException, NotFound, UcmError
+from ucm_cts.adapters.contract.programming_model import DeclaredException, NotFound, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
-from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, OK, Link, Taker
 from ucm_cts.adapters.reference.python.members import Member
@@ -37,6 +37,9 @@ class _CountsInteractions(Link):
     def _deliver(self, taker: Taker, method: str) -> None:
         self.here.receives = True
         super()._deliver(taker, method)
+
+
+_INTERFACES, _REFUSED = ("11.2.3",), {"incompatible-ends": "refused"}
 
 
 @refuses_if("_request", _CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
@@ -199,3 +202,31 @@ def never_breaks_a_transport(self: Link, where: str) -> None:
 def keeps_its_log(_self: Base) -> list[tuple[str, str]]:
     """The vendor claims that the trace can be read back; the adapter does not offer it."""
     raise NotOffered
+
+
+# ends with different interfaces
+
+
+@replaces("_check_compatible", "R-11.2.3-18", clauses=_INTERFACES, readings=_REFUSED)
+def connects_any_interfaces(_self: Base, *_: object) -> None:
+    """connect does not compare the interfaces of the two port elements."""
+
+
+@alters("_interfaces_of", "R-11.2.3-18", clauses=_INTERFACES, readings=_REFUSED)
+def compares_interfaces_within_a_container_only(
+    self: Base, found: list[Interface | None], target: PortElementObject
+) -> list[Interface | None]:
+    """connect does not compare interfaces if the reference is of another container."""
+    own = [self._reference_to(m, port) for m in self.members.values() for port in m.implementation.provides]
+    return found if any(element is target for element in own) else []
+
+
+@replaces("_check_compatible", "R-11.2.3-18", clauses=_INTERFACES, readings=_REFUSED)
+def attaches_any_interfaces(_self: Link, *_: object) -> None:
+    """A connector takes port elements of any interface as its ends."""
+
+
+@does_only_if("_check_compatible", "R-11.2.3-18", clauses=_INTERFACES, readings=_REFUSED)
+def attaches_any_receivers(self: Link, *_: object) -> bool:
+    """A message connector takes port elements of any interface as its ends."""
+    return self.connector != MESSAGE_CONNECTOR

@@ -223,7 +223,7 @@ class notices_later_than_it_said(_Answering):
         return OK if self.met == 1 and where == "transport" else code
 
 
-@replaces("_request", "R-10.1.2-01", clauses=_CODES)
+@replaces("_request", "R-10.1.5.1-01", clauses=_CODES)
 def answers_for_servers_out_of_reach(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """A client whose connection is broken gets zeros, as if its server had answered."""
     return (
@@ -231,7 +231,7 @@ def answers_for_servers_out_of_reach(self: Link, method: str, arguments: Sequenc
     )
 
 
-@breaks("R-10.1.2-01", clauses=_CODES)
+@breaks("R-10.1.5.1-01", clauses=_CODES)
 class repeats_the_last_result(Link):
     """A client whose connection is broken gets its last result again."""
 

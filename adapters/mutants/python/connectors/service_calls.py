@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.programming_model import NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
+from ucm_cts.adapters.mutants.python.variants.services import replaces_servers
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
@@ -304,3 +305,20 @@ class aborts_calls_of_undone_connections(_Undone):
 
     def answer_undone(self) -> None:
         raise UcmError("the connection has been undone")
+
+
+class _Staying(Link):
+    def _check_room(self) -> None:
+        pass
+
+
+@breaks(_CALLS, clauses=_CLAUSES, readings={"second-server": "replace"})
+class stays_with_the_first_server(replaces_servers):
+    """The vendor declares that a second server replaces the first; calls still enter the first."""
+
+    link_class = _Staying
+
+
+@breaks(_ONE_SERVER, clauses=_CLAUSES, readings={"second-server": "replace"})
+class refuses_the_server_that_was_to_replace_another(Link):
+    """The vendor declares that a second server replaces the first; it is refused."""

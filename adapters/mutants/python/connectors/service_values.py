@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmError
 from ucm_cts.adapters.mutants.python.connectors.service_calls import Services
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base, Row, family
+from ucm_cts.adapters.mutants.python.registry import Base, Row, breaks, family
 from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
@@ -116,3 +116,40 @@ def swallows_what_is_not_declared(self: Services, method: str, arguments: Sequen
         raise
     except Exception:  # noqa: BLE001 - a body may raise anything
         return self.nothing(method)
+
+
+class _Meets(Services):
+    """Knows how many calls are on their way, and what the last one that failed beside another ended with."""
+
+    inside = 0
+    failed: DeclaredException | None = None
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        self.inside += 1
+        try:
+            result = super()._request(method, arguments)
+        except DeclaredException as error:
+            if self.inside > 1:
+                self.failed = error
+            raise
+        finally:
+            self.inside -= 1
+        failed, self.failed = self.failed, None
+        return result if failed is None else self.beside(failed)
+
+    def beside(self, failed: DeclaredException) -> Sequence[Datum]:
+        """The end of a call during which another one failed."""
+        raise failed
+
+
+@breaks("R-10.1.5.1-04", clauses=_CLAUSES)
+class hands_exceptions_to_other_clients(_Meets):
+    """A call during which another client's call ended with an exception ends with that exception, too."""
+
+
+@breaks("R-10.1.5.1-04", clauses=_CLAUSES)
+class gives_up_other_calls_after_exceptions(_Meets):
+    """A call during which another client's call ended with an exception ends with an error of the framework."""
+
+    def beside(self, failed: DeclaredException) -> Sequence[Datum]:
+        raise UcmError("the connection has failed")

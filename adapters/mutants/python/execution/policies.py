@@ -5,11 +5,20 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
-from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
+from ucm_cts.adapters.contract.scenario import (
+    ACTIVE,
+    CLOCK,
+    COMPONENT_TRACE,
+    PORT_TRACE,
+    PROTECTED_PASSIVE,
+    SELF_EXECUTING,
+    UNPROTECTED_PASSIVE,
+)
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import (
     POLICIES,
@@ -20,6 +29,7 @@ from ucm_cts.adapters.mutants.python.registry import (
     container_of,
     family,
 )
+from ucm_cts.adapters.mutants.python.variants.execution import protects_what_components_call
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.execution import Trigger
 from ucm_cts.adapters.reference.python.members import Member
@@ -371,3 +381,25 @@ def truncates_results_of_the_second_active_port(_self: _Truncates, member: Membe
 @breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "refuse"})
 class starts_what_it_says_it_refuses(Base):
     """The vendor declares that components without execution policy are refused; they are started."""
+
+
+@replaces("_check_policies", "R-9.4.3.2-06", clauses=("10.1.3", "9.4.3.2"), readings={"unknown-policy": "refused"})
+def ignores_unknown_policies(self: Base, implementation: Implementation) -> None:
+    """Policies that the framework does not know are ignored."""
+    known = [p for p in implementation.policies if p.definition in _KNOWN]
+    Base._check_policies(self, replace(implementation, policies=known))
+
+
+@replaces("_check_policies", "R-9.4.3.2-06", clauses=("10.1.3", "9.4.3.2"), readings={"unknown-policy": "refused"})
+def ignores_unknown_policies_of_ports(self: Base, implementation: Implementation) -> None:
+    """Policies of ports are ignored if the framework does not know them."""
+    known = [p for p in implementation.policies if p.port is None or p.definition in _KNOWN]
+    Base._check_policies(self, replace(implementation, policies=known))
+
+
+_KNOWN = {ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, CLOCK, COMPONENT_TRACE, PORT_TRACE}
+
+
+@breaks("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16", clauses=POLICIES)
+class leaves_references_unprotected(protects_what_components_call):
+    """References of get_port_element are not protected, which the vendor does not declare."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import TypeVar
 
-from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
+from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
 from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, breaks
 from ucm_cts.adapters.reference.python.execution import Trigger
@@ -97,3 +98,32 @@ class executes_unprotected_components(executes_passive_components):
     """The container calls unprotected passive components by itself."""
 
     definition = UNPROTECTED_PASSIVE
+
+
+@breaks("R-10.1.3.2-24", clauses=POLICIES, also=("R-10.1.3.2-07",))
+class executes_active_components(executes_passive_components):
+    """The container calls active components by itself when it has started them."""
+
+    definition = ACTIVE
+
+
+@breaks("R-10.1.3.2-24", clauses=POLICIES, also=("R-10.1.3.2-07", "R-10.1.3.2-08", "R-11.1.3-01"))
+class executes_active_components_once_more(Base):
+    """A little after the first call of an active component it is entered again."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        result = super()._execute(member, port, work)
+        if member.execution.definition == ACTIVE and not member.__dict__.setdefault("was executed", False):
+            member.__dict__["was executed"] = True
+            element = member.body.get_portElement(port or "")
+            assert element is not None
+            again = partial(super()._execute, member, port, lambda: element.exchange(0))
+            threading.Timer(0.01, again).start()
+        return result
+
+
+@replaces("_remove", "R-11.2.2.2-07", clauses=POLICIES)
+def leaves_threads_of_active_components(self: Base, member: Member, failures: Failures) -> None:
+    """The thread of an active component is not ended when its component is removed."""
+    member.execution.executor.close = lambda: None  # type: ignore[method-assign]
+    Base._remove(self, member, failures)

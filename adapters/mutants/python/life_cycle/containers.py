@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import threading
 from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
@@ -287,3 +289,24 @@ def refuses_to_end(self: Base) -> None:
     if any(c.is_started for c in (self.manager, *self.manager.sub_containers)):
         raise pm.UcmError("still running")
     ContainerManager.destroy(self.manager)
+
+
+# what destroy leaves behind
+
+
+@breaks("R-11.2.2.2-07")
+class leaves_its_watchdog(Base):
+    """Each runtime has a thread that waits for ever, also when the runtime has been destroyed."""
+
+    def start(self) -> None:
+        if "watchdog" not in self.manager.__dict__:
+            self.manager.__dict__["watchdog"] = threading.Thread(target=threading.Event().wait, daemon=True)
+            self.manager.__dict__["watchdog"].start()
+        super().start()
+
+
+@replaces("create_container", "R-11.2.2.2-07")
+def leaves_a_file_for_each_container(self: Base) -> Container:
+    """Each container opens a file, which nobody closes."""
+    os.open(os.devnull, os.O_RDONLY)
+    return ContainerManager.create_container(self.manager)

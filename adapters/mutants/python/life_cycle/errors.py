@@ -164,3 +164,29 @@ def hands_references_over_twice(
 def no_list_while_ready(self: Base) -> bool:
     """get_components is refused while the container is started."""
     return self.is_started
+
+
+# names that mean nothing
+
+
+@replaces("connect", "R-12.10-18")
+def unknown_required_names_are_errors(
+    self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None
+) -> int:
+    """connect raises UCM_ERROR for an unknown name, which its vendor does not declare."""
+    if port_name not in self._find_member(instance).implementation.requires:
+        raise pm.UcmError(f"no required port element {port_name!r}")
+    return Base.connect(self, instance, port_name, to_port)
+
+
+@replaces("get_port_element", "R-12.10-20")
+def unknown_provided_names_are_errors(self: Base, comp_instance: int, port_name: str) -> pm.PortElementObject:
+    """get_port_element raises UCM_ERROR for an unknown name, which its vendor does not declare."""
+    if port_name not in self._find_member(comp_instance).implementation.provides:
+        raise pm.UcmError(f"no provided port element {port_name!r}")
+    return Base.get_port_element(self, comp_instance, port_name)
+
+
+@breaks("R-12.10-18", "R-12.10-20", readings={"unknown-names": "ucm-error"})
+class unknown_names_are_not_found(Base):
+    """The vendor declares UCM_ERROR for names that mean nothing; the framework raises other exceptions."""

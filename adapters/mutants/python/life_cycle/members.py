@@ -124,6 +124,20 @@ def sets_attributes_once(self: Base, member: Member, attributes: Mapping[str, st
     known.add(member.implementation.name)
 
 
+@replaces("_set_attributes", "R-11.2.3-19")
+def names_its_components(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
+    """Every body is given an attribute 'name', which its type does not have."""
+    Base._set_attributes(self, member, {**attributes, "name": str(member.id)})
+
+
+@replaces("_set_attributes", "R-11.2.3-19")
+def hands_attributes_on(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
+    """A body is given the attributes of all components that were added before, too."""
+    known: dict[str, str] = self.manager.__dict__.setdefault("all attributes", {})
+    known.update(attributes)
+    Base._set_attributes(self, member, known)
+
+
 @does_only_if("_set_attributes", "R-11.2.1.2-05")
 def no_attributes_below(self: Base, _member: Member, _attributes: Mapping[str, str]) -> bool:
     """Attributes are set in the manager only."""

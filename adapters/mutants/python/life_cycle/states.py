@@ -130,7 +130,7 @@ def ready_is_not_found(self: Base, member: Member) -> None:
     Base._check_removable(self, member)
 
 
-@breaks("R-11.2.3-12")
+@breaks("R-11.2.1.2-10")
 class removes_without_shutdown(Base):
     """remove_component of an operational component does not call on_shutdown."""
 

@@ -4,16 +4,28 @@ from __future__ import annotations
 
 import dataclasses
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
 
-from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
-from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
+from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.programming_model import Implementation, PortElementObject, UcmError
+from ucm_cts.adapters.contract.scenario import (
+    ACTIVE,
+    CLOCK,
+    COMPONENT_TRACE,
+    PORT_TRACE,
+    PROTECTED_PASSIVE,
+    SELF_EXECUTING,
+    UNPROTECTED_PASSIVE,
+    Policy,
+)
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.execution import Executor, Trigger
 from ucm_cts.adapters.reference.python.members import Failures, Member
+from ucm_cts.adapters.reference.python.policies import ProtectedElement
 
 _EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
 
@@ -231,3 +243,49 @@ def runs_one_component_at_a_time(self: Base, member: Member, trigger: Trigger) -
     """Of all self-executing components of the runtime one runs at a time."""
     with self.manager.__dict__.setdefault("one_run", threading.Lock()):
         Base._run(self, member, trigger)
+
+
+@variant_of(*POLICIES, "9.4.3.2", readings={"unknown-policy": "refused"})
+class refuses_unknown_policies_at_start(Base):
+    """A component with a policy that the framework does not know is added; its container does not start."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        known = [p for p in implementation.policies if p.definition in _KNOWN]
+        super()._check_policies(dataclasses.replace(implementation, policies=known))
+
+    def _check_startable(self) -> None:
+        for member in self.members.values():
+            super()._check_policies(member.implementation)
+        super()._check_startable()
+
+
+@replaces("_execute_on_own_thread", clauses=POLICIES)
+def executes_active_components_by_period(self: Base, member: Member, work: Callable[[], T]) -> T:
+    """A call of an active component is executed when the component's next period begins."""
+    time.sleep(0.002)
+    return Base._execute_on_own_thread(self, member, work)
+
+
+_KNOWN = {*_EXECUTION, CLOCK, COMPONENT_TRACE, PORT_TRACE}
+
+
+@variant_of(*POLICIES, readings={"raw-references": "unprotected"})
+class protects_what_components_call(Base):
+    """get_port_element gives out the bodies' own objects; components and connectors get protected references."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        return element.element if isinstance(element, ProtectedElement) else element
+
+    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
+        protected = [
+            container._reference_to(provider, provided)
+            for container in (self.manager, *self.manager.sub_containers)
+            for provider in container.members.values()
+            for provided in provider.implementation.provides
+            if provider.body.get_portElement(provided) is target
+        ]
+        return super()._connect_to(member, port, next(filter(None, protected), target))
+
+    def _interfaces_of(self, target: PortElementObject) -> list[Interface | None]:
+        return []

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Mapping
+from typing import ClassVar
 
 from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
 from ucm_cts.adapters.mutants.python.methods import refuses_if, replaces
@@ -168,3 +170,40 @@ class stays_operational_below(manager_reaches_down, stays_operational_when_shutd
 def attributes_by_name(self: Base, member: object, attributes: Mapping[str, str]) -> None:
     """Attributes are set in the order of their names."""
     Base._set_attributes(self, member, dict(sorted(attributes.items())))  # type: ignore[arg-type]
+
+
+@variant
+class keeps_a_pool_of_threads(Base):
+    """All runtimes of a process share threads, of which each start adds one until there are enough. They stay."""
+
+    pool: ClassVar[list[threading.Thread]] = []
+
+    def start(self) -> None:
+        super().start()
+        if len(self.pool) < _POOL:
+            self.pool.append(threading.Thread(target=threading.Event().wait, daemon=True))
+            self.pool[-1].start()
+
+
+@variant
+class ends_its_thread_a_little_later(Base):
+    """A runtime has a thread that ends some time after destroy."""
+
+    def start(self) -> None:
+        super().start()
+        if "over" not in self.manager.__dict__:
+            over = self.manager.__dict__["over"] = threading.Event()
+            threading.Thread(target=_lasts_longer, args=(over,), daemon=True).start()
+
+    def _remove_members(self, failures: Failures) -> None:
+        super()._remove_members(failures)
+        if "over" in self.__dict__:
+            self.__dict__["over"].set()
+
+
+def _lasts_longer(over: threading.Event) -> None:
+    over.wait()
+    time.sleep(0.2)
+
+
+_POOL = 20

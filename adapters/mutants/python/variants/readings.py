@@ -6,7 +6,15 @@ from collections.abc import Callable, Mapping, Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, is_below, variant
+from ucm_cts.adapters.mutants.python.registry import (
+    CONTAINER,
+    Base,
+    GivesOutProxies,
+    Proxy,
+    is_below,
+    variant,
+    variant_of,
+)
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
@@ -277,3 +285,52 @@ class removes_members_one_by_one(Base):
 
 
 _ = ContainerManager
+
+
+@variant_of(*CONTAINER, readings={"unknown-names": "ucm-error"})
+class calls_unknown_names_an_error(Base):
+    """connect and get_port_element raise UCM_ERROR for names that are no required or provided port element."""
+
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
+        if port_name not in self._find_member(instance).implementation.requires:
+            raise pm.UcmError(f"no required port element {port_name!r}")
+        return super().connect(instance, port_name, to_port)
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
+        if port_name not in self._find_member(comp_instance).implementation.provides:
+            raise pm.UcmError(f"no provided port element {port_name!r}")
+        return super().get_port_element(comp_instance, port_name)
+
+
+@variant_of(*CONTAINER, readings={"container-interface": "repeated"})
+class gives_the_container_at_each_start(Base):
+    """A fragment gets its container's interface when it is added and again at each start."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if isinstance(member.body, pm.FragmentObject):
+            member.body.set_container_interface(self)
+        return super()._start_up(member, failures)
+
+
+@variant_of(*CONTAINER, readings={"id-scope": "runtime"})
+class takes_ids_of_the_whole_runtime(Base):
+    """Every container takes the ids of components and connections of all containers."""
+
+    def _owner(self, comp_instance: int) -> Container:
+        all_containers: list[Container] = [self, self.manager, *self.manager.sub_containers]
+        return next((c for c in all_containers if comp_instance in c.members), self)
+
+    def remove_component(self, comp_instance: int) -> None:
+        Container.remove_component(self._owner(comp_instance), comp_instance)
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
+        return Container.get_port_element(self._owner(comp_instance), comp_instance, port_name)
+
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
+        return Container.connect(self._owner(instance), instance, port_name, to_port)
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        owner = found.client.container if found is not None else self
+        assert isinstance(owner, Container)
+        Container.disconnect(owner, connection)

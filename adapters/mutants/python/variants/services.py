@@ -212,3 +212,32 @@ def _server_behind(target: PortElementObject | None) -> PortElementObject | None
         return target
     server = link.takers[0].member
     return server.container._reference_to(server, link.takers[0].port)
+
+
+@variant_of("10.1.5", "11.2.3", readings={"incompatible-ends": "refused"})
+class compares_interfaces_at_start(Base):
+    """connect takes any reference; a container does not start if a port element is connected to another interface."""
+
+    def _check_compatible(self, member: Member, port: str, target: PortElementObject) -> None:
+        pass
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        for member in self.members.values():
+            for connection in self._connections_from(member):
+                provided = self._interfaces_of(connection.target)
+                if provided and member.implementation.interfaces.get(connection.port) not in provided:
+                    raise UcmError(f"{connection.port!r} is connected to another interface")
+
+
+class _Replacing(Link):
+    def _check_room(self) -> None:
+        if self.connector == SERVICE_CONNECTOR and self.takers:
+            self.remove(self.takers[0])
+
+
+@variant_of(*_CLAUSES, readings={"second-server": "replace"})
+class replaces_servers(Base):
+    """A second server takes the place of the first."""
+
+    link_class: type[Link] = _Replacing
