@@ -172,6 +172,7 @@ def test_no_trace_however_absurd_breaks_a_diagram() -> None:
         "dependencies": [None, (Dependency(port="out_api", references=(None, "opaque", API)),)],
         "attributes": [None, {"a": HOSTILE}],
         "raised": [False, True],
+        "wrong": ["", HOSTILE],
         "ids": [(), (1, 2)],
         "method": [None, "push", HOSTILE],
         "exception": [None, HOSTILE],
