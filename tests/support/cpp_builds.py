@@ -210,7 +210,7 @@ class Host:
     def end(self, *lines: bytes | m.ToHost) -> tuple[list[m.FromHost], str, int]:
         """Send these last messages and close its input; its answers, standard error and exit status."""
         try:
-            out, err = self.process.communicate(wire(*lines), timeout=30)
+            out, err = self.process.communicate(wire(*lines), timeout=120)
         finally:
             self.process.kill()
         decoder = m.from_host_decoder()

@@ -395,8 +395,13 @@ def test_stress_without_callers(builds: Builds) -> None:
 
 @needs_two_cores
 def test_stress_finds_small_holes_and_never_cries_wolf(builds: Builds) -> None:
-    done = run([builds.program("power"), "3", "50", "0.3"])
-    found = {line["subject"]: line for line in map(json.loads, done.stdout.splitlines())}
-    assert not [name for name, line in found.items() if line["right"] and line["found"]]
-    for name in ("no lock on 1 of 1,000 calls (mutex)", "checked, then set", "checked, 1 us later set"):
-        assert found[name]["found"] > 0, name
+    """On a busy machine threads meet less often, so a hole may take some attempts."""
+    missed = {"no lock on 1 of 1,000 calls (mutex)", "checked, then set", "checked, 1 us later set"}
+    for _ in range(5):
+        done = run([builds.program("power"), "3", "50", "0.3"])
+        found = {line["subject"]: line for line in map(json.loads, done.stdout.splitlines())}
+        assert not [name for name, line in found.items() if line["right"] and line["found"]]
+        missed -= {name for name in missed if found[name]["found"]}
+        if not missed:
+            return
+    assert not missed
