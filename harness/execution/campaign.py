@@ -52,11 +52,8 @@ class Campaign:
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
         watch: Callable[[Answer, Verdicts], None] | None = None,
-        distinct_incidents: bool = False,
     ) -> None:
-        """``watch`` gets each answer with a trace, and the verdicts on it. Of ``distinct_incidents`` the
-        report has one of each cause, of others all.
-        """
+        """``watch`` gets each answer with a trace, and the verdicts on it."""
         self._driver = driver
         self._watch = watch
         self._profile = profile
@@ -65,7 +62,7 @@ class Campaign:
         self.checked: list[TestPurpose] = []
         self._monitor = Monitor(load_life_cycle(), self.statement.ics)
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
-        self._tally = Tally(distinct_incidents)
+        self._tally = Tally()
         check_statement(self.statement, profile, self._requirements, self._tally)
         self._confirmation = Confirmation(driver, self._monitor, driver.gaps)
         self._payloads = Payloads(driver.seed)
@@ -95,6 +92,8 @@ class Campaign:
             if done == len(purpose.scenarios):
                 now = time.monotonic()
                 self._spent[purpose.clause] = self._spent.get(purpose.clause, 0.0) + now - since
+                for requirement in purpose.requirements:
+                    self._tally.seconds[requirement] += (now - since) / len(purpose.requirements)
                 since = now
                 self.checked.append(purpose)
                 yield Checked(queue.pop(0), done, tuple(failures))
@@ -182,8 +181,8 @@ class Campaign:
         """Search the shortest scenario of each failure; yields each cause when it is done."""
         yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
 
-    def report(self) -> FrameworkReport:
-        """All verdicts of the run so far."""
+    def report(self, incomplete: str = "") -> FrameworkReport:
+        """All verdicts of the run so far; ``incomplete`` says why it ended early, if it did."""
         results = self._tally.results(self._requirements, self.known)
         incidents = self._tally.incidents
         identity = self._driver.identity
@@ -191,7 +190,7 @@ class Campaign:
             product=identity.product,
             version=identity.version,
             profile=self._profile,
-            verdict=overall(results, incidents),
+            verdict=overall(results, incidents, incomplete),
             requirements=results,
             transitions=self._tally.transitions(load_life_cycle()),
             incidents=incidents,
@@ -208,4 +207,5 @@ class Campaign:
                 dict(self._tally.measures.most_common()),
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
             ),
+            incomplete=incomplete,
         )

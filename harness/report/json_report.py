@@ -50,6 +50,7 @@ class FindingEntry(Entry, frozen=True):
     ``model`` is the file of a tool chain's model, ``command`` the command that was given it, ``status`` its exit status,
     ``output`` what it printed, and ``place`` the wrong place in a generated file.
     ``trace`` is a trace of an unstable finding, ``steady`` one of the same scenario without the finding, if there is one.
+    ``explains``: other requirements that were broken after it in the same scenarios.
     """
 
     rule: str
@@ -68,10 +69,11 @@ class FindingEntry(Entry, frozen=True):
     place: str = ""
     trace: tuple[Event, ...] = ()
     steady: tuple[Event, ...] = ()
+    explains: tuple[str, ...] = ()
 
 
 class RequirementEntry(Entry, frozen=True):
-    """One requirement of the catalogue with its verdict."""
+    """One requirement of the catalogue with its verdict; ``seconds`` were spent on scenarios that are to exercise it."""
 
     id: str
     clause: str
@@ -81,10 +83,14 @@ class RequirementEntry(Entry, frozen=True):
     exercised: int
     reason: str
     findings: tuple[FindingEntry, ...]
+    seconds: float = 0.0
 
 
 class IncidentEntry(Entry, frozen=True):
-    """A scenario that broke the framework's host."""
+    """A cause for which scenarios broke the framework's host.
+
+    ``occurrences`` counts the scenarios, ``scenario`` is the shortest one, ``requirements`` are those that they were to exercise.
+    """
 
     kind: str
     detail: str
@@ -92,6 +98,8 @@ class IncidentEntry(Entry, frozen=True):
     reproduced: bool
     scenario: str
     replay: str
+    occurrences: int = 1
+    requirements: tuple[str, ...] = ()
 
 
 class TransitionEntry(Entry, frozen=True):
@@ -117,7 +125,11 @@ class StatementEntry(Entry, frozen=True):
 
 
 class ReportEntry(Entry, frozen=True):
-    """The whole of ``report.json``."""
+    """The whole of ``report.json``.
+
+    ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
+    empty after a run of everything.
+    """
 
     product: str
     version: str
@@ -138,6 +150,8 @@ class ReportEntry(Entry, frozen=True):
     measures: dict[str, int]
     seconds_by_clause: dict[str, float]
     runs: int
+    incomplete: str = ""
+    selection: str = ""
 
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -159,7 +173,13 @@ def _body(report: v.Report) -> dict[str, Any]:
     if isinstance(report, v.FrameworkReport):
         return {
             "incidents": tuple(
-                IncidentEntry.of(item.incident, scenario=item.execution.name, replay=incident_file(number))
+                IncidentEntry.of(
+                    item.incident,
+                    scenario=item.execution.name,
+                    replay=incident_file(number),
+                    occurrences=item.occurrences,
+                    requirements=item.requirements,
+                )
                 for number, item in enumerate(report.incidents)
             ),
             "transitions": tuple(map(TransitionEntry.of, report.transitions)),

@@ -12,7 +12,7 @@ from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, to_fix
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import all_known
-from ucm_cts.harness.results.values import Overall, Report, RequirementResult, Verdict, incidents_of
+from ucm_cts.harness.results.values import IncidentReport, Overall, Report, RequirementResult, Verdict, incidents_of
 
 SHOWN = 12
 """The number of failed requirements, and of incidents, that are listed."""
@@ -27,34 +27,64 @@ _COLOURS: dict[Verdict, str] = {
 _STYLES: dict[Overall, str] = {"conformant": "bold green", "not conformant": "bold red", "inconclusive": "bold yellow"}
 
 
-def summary(report: Report, out: Path | None = None) -> RenderableType:
-    """What to print at the end of a run; ``out`` is the folder the report was written to."""
+def summary(report: Report, out: Path | None = None, whole: bool = False, everything: bool = False) -> RenderableType:
+    """What to print at the end of a run; ``out`` is the folder the report was written to.
+
+    A ``whole`` summary lists all failures and incidents, and cuts no line; ``everything`` is each cause of a failure and each
+    undecided requirement as well.
+    """
     name = one_line(f"{report.product} {report.version}", 80)
     known = " (all failures known)" if all_known(report) else ""
+    only = f", only -k {one_line(report.selection, 80)}" if report.selection else ""
     lines = [
         Text.assemble(
             (f"{SEALS[report.verdict]} {report.verdict.upper()}{known}", _STYLES[report.verdict]),
-            f"  {name}, profile {one_line(report.profile, 40)}",
+            f"  {name}, profile {one_line(report.profile, 40)}{only}",
         ),
         _counts(report),
     ]
-    failed = to_fix(report.requirements)
-    for result in failed[:SHOWN]:
-        lines += [Text(), *_failure(result)]
-    if len(failed) > SHOWN:
-        lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
-    incidents = incidents_of(report)
+    if report.incomplete:
+        lines.append(Text(f"  incomplete: {one_line(report.incomplete)}", "bold yellow"))
+    fixes = to_fix(report)
+    incidents = [fix.report for fix in fixes if fix.report is not None]
+    incidents += [item for item in incidents_of(report) if item.incident.kind == "untried"]
+    failed = [fix.result for fix in fixes if fix.result is not None]
+    most = max(len(incidents), len(failed)) if whole or everything else SHOWN
     if incidents:
         lines.append(Text())
-    for item in incidents[:SHOWN]:
-        during = last_call(item.execution)
-        detail = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 160)
-        lines.append(cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {detail}")))
-    if len(incidents) > SHOWN:
-        lines.append(Text(f"and {len(incidents) - SHOWN} more incidents", "dim"))
+    lines += [_incident(item) for item in incidents[:most]]
+    if len(incidents) > most:
+        lines.append(Text(f"and {len(incidents) - most} more incidents (--all lists them)", "dim"))
+    for result in failed[:most]:
+        lines += [Text(), *_failure(result, everything)]
+    if len(failed) > most:
+        lines += [Text(), Text(f"and {len(failed) - most} more failed requirements (--all lists them)", "dim")]
+    if everything:
+        lines += _undecided(report)
     if out is not None:
         lines += [Text(), Text.assemble("report  ", (str(out / "report.html"), "bold"), overflow="fold")]
-    return Group(*lines)
+    return Group(*lines) if not (whole or everything) else Group(*map(_uncut, lines))
+
+
+def _incident(item: IncidentReport) -> Text:
+    during = last_call(item.execution)
+    often = f" {item.occurrences} times" if item.occurrences > 1 and item.incident.kind != "untried" else ""
+    detail = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 300)
+    return cut(Text.assemble(("⚡ ", "magenta"), (f"{item.incident.kind}{often}", "bold magenta"), f"  {detail}"))
+
+
+def _undecided(report: Report) -> list[Text]:
+    """Requirements without a verdict, with the reason."""
+    undecided = [result for result in report.requirements if result.verdict in ("error", "inconclusive")]
+    rows = [
+        Text.assemble(
+            (f"{SYMBOLS[result.verdict]} ", _COLOURS[result.verdict]),
+            (result.id, "bold"),
+            f"  {one_line(result.title)}: {one_line(result.reason, 300)}",
+        )
+        for result in undecided
+    ]
+    return [Text(), *rows] if rows else []
 
 
 def _counts(report: Report) -> Text:
@@ -67,21 +97,27 @@ def _counts(report: Report) -> Text:
     return line
 
 
-def _failure(result: RequirementResult) -> list[Text]:
+def _failure(result: RequirementResult, everything: bool) -> list[Text]:
     head = Text.assemble(("✗ ", "red"), (result.id, "bold"), f"  {one_line(result.title)}")
     if not result.findings:
         return [cut(head), cut(Text(f"  {one_line(result.reason)}"))]
-    finding = shortest_first(result.findings)[0].finding
+    shortest = shortest_first(result.findings)
     waived = result.findings[:1] if all(f.waived for f in result.findings) else ()
-    return [
-        cut(head),
-        cut(Text.assemble(("  expected  ", "green"), one_line(finding.expected, 300))),
-        cut(Text.assemble(("  observed  ", "red"), one_line(finding.observed, 300))),
-        *(cut(Text.assemble(("  known     ", "yellow"), one_line(f.waived, 300))) for f in waived),
-    ]
+    lines = [cut(head)]
+    for failed in shortest if everything else shortest[:1]:
+        finding = failed.finding
+        lines.append(cut(Text.assemble(("  expected  ", "green"), one_line(finding.expected, 300))))
+        lines.append(cut(Text.assemble(("  observed  ", "red"), one_line(finding.observed, 300))))
+    return [*lines, *(cut(Text.assemble(("  known     ", "yellow"), one_line(f.waived, 300))) for f in waived)]
 
 
 def cut(text: Text) -> Text:
     """``text`` on one line, cut where the terminal ends."""
     text.no_wrap, text.overflow = True, "ellipsis"
+    return text
+
+
+def _uncut(text: Text) -> Text:
+    """``text`` on one line, however long."""
+    text.no_wrap, text.overflow = True, "ignore"
     return text

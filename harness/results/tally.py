@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TypeVar
 
 import msgspec
 
@@ -18,6 +19,8 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.verdicts import RowTally, Verdicts
 
+AnyReport = TypeVar("AnyReport", bound=v.Report)
+
 Cause = tuple[str, str, str]
 """Requirement, rule and cause: findings that agree in these are one failure."""
 
@@ -30,14 +33,14 @@ def cause_of(finding: Finding) -> Cause:
 class Tally:
     """Counts what was exercised and keeps, for each cause of failure, the shortest execution that shows it."""
 
-    def __init__(self, distinct_incidents: bool = False) -> None:
-        """Of ``distinct_incidents`` only one of each cause is kept, however many there are."""
+    def __init__(self) -> None:
         self.exercised: Counter[str] = Counter()
         self.failures: dict[Cause, v.ReportedFinding] = {}
         self.rows: dict[str, RowTally] = {}
         self.lost: dict[str, str] = {}
-        self._incidents: list[v.IncidentReport] = []
-        self._distinct = DistinctIncidents() if distinct_incidents else None
+        self.seconds: defaultdict[str, float] = defaultdict(float)
+        self._explained: dict[Cause, set[str]] = {}
+        self._incidents = DistinctIncidents()
         self._untried: dict[str, v.IncidentReport] = {}
         self._left_out: dict[str, str] = {}
         self.scenarios = 0
@@ -61,6 +64,10 @@ class Tally:
             total.readings |= tally.readings
         for finding in findings:
             self.add_failure(finding, v.TraceEvidence(execution))
+        if findings:
+            first = min(findings, key=lambda finding: min(finding.events, default=0))
+            broken = {finding.requirement for finding in findings} - {first.requirement}
+            self._explained.setdefault(cause_of(first), set()).update(broken)
 
     def _observe(self, readings: Mapping[str, Iterable[str]]) -> None:
         for option, values in readings.items():
@@ -132,11 +139,8 @@ class Tally:
             return
         self.scenarios += 1
         self.events += len(execution.trace)
-        not_run = incident.kind == "unreachable"
-        if self._distinct is not None:
-            self._distinct.add(execution)
-        elif not (not_run and any(i.incident == incident for i in self._incidents)):
-            self._incidents.append(v.IncidentReport(incident, execution))
+        requirements = tuple(requirements)
+        self._incidents.add(execution, requirements)
         if incident.kind not in v.FRAMEWORK_INCIDENTS:
             for requirement in requirements:
                 self.lost.setdefault(requirement, f"{incident.kind}: {incident.detail}")
@@ -148,12 +152,12 @@ class Tally:
 
     @property
     def incidents(self) -> tuple[v.IncidentReport, ...]:
-        """All of them; scenarios that were not tried for the same reason are one."""
+        """One of each cause, as scenarios that were not tried for the same reason are one."""
         left_out = (
             msgspec.structs.replace(one, incident=v.Incident("untried", f"{one.occurrences} scenarios {reason}"))
             for reason, one in self._untried.items()
         )
-        return (*(self._distinct.reports if self._distinct is not None else self._incidents), *left_out)
+        return (*self._incidents.reports, *left_out)
 
     def results(
         self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]
@@ -171,7 +175,9 @@ class Tally:
     ) -> v.RequirementResult:
         by_length = shortest_first(tuple(failures))
         waived = tuple(
-            msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
+            msgspec.structs.replace(
+                f, waived=waiver_for(f.finding, known_failures), explains=self._explained_by(f.finding)
+            )
             for f in by_length
             if not f.unstable
         )
@@ -179,8 +185,20 @@ class Tally:
         findings = waived or tuple(by_length)
         exercised = self.exercised[requirement.id]
         return v.RequirementResult(
-            requirement.id, requirement.clause, requirement.title, verdict, exercised, findings, reason
+            requirement.id,
+            requirement.clause,
+            requirement.title,
+            verdict,
+            exercised,
+            findings,
+            reason,
+            round(self.seconds[requirement.id], 3),
         )
+
+    def _explained_by(self, finding: Finding) -> tuple[str, ...]:
+        """The other requirements that failed in scenarios in which ``finding`` came first."""
+        failed = {requirement for (requirement, _, _), one in self.failures.items() if not one.unstable}
+        return tuple(sorted(failed & self._explained.get(cause_of(finding), set())))
 
     def _verdict(self, requirement: str, failures: Sequence[v.ReportedFinding], fails: bool) -> tuple[v.Verdict, str]:
         """The verdict, and the reason for any but pass and fail. Where it does not fail, ``failures`` are unstable."""
@@ -211,10 +229,27 @@ def _repeatable(evidence: v.Evidence | None) -> object:
     return evidence.execution if isinstance(evidence, v.TraceEvidence) else evidence
 
 
-def overall(results: Sequence[v.RequirementResult], incidents: Sequence[v.IncidentReport]) -> v.Overall:
-    """Not conformant if any requirement failed; conformant if all passed and there was no incident."""
+def overall(
+    results: Sequence[v.RequirementResult], incidents: Sequence[v.IncidentReport], incomplete: str = ""
+) -> v.Overall:
+    """Not conformant if any requirement failed; conformant if all passed without incident, unless the run is ``incomplete``."""
     if any(r.verdict == "fail" for r in results):
         return "not conformant"
-    if incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:
+    if incomplete or incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:
         return "inconclusive"
     return "conformant"
+
+
+def ended_early(report: AnyReport, incomplete: str) -> AnyReport:
+    """``report`` as one of a run that ended early for the reason ``incomplete``; as it is if that is empty."""
+    if not incomplete:
+        return report
+    verdict = overall(report.requirements, v.incidents_of(report), incomplete)
+    return msgspec.structs.replace(report, verdict=verdict, incomplete=incomplete)
+
+
+def of_selection(report: AnyReport, expression: str, asked: Collection[str]) -> AnyReport:
+    """``report`` with the verdicts on what ``expression`` selected, the requirements ``asked``, and on what failed."""
+    results = tuple(r for r in report.requirements if r.id in asked or r.verdict == "fail")
+    verdict = overall(results, v.incidents_of(report), report.incomplete)
+    return msgspec.structs.replace(report, requirements=results, verdict=verdict, selection=expression)

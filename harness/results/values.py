@@ -116,6 +116,8 @@ class ReportedFinding(Value, frozen=True):
     """Why the failure is known, empty if it is not."""
     unstable: str = ""
     """Why it is not held against the product: another run did not show it. Empty if it is held against it."""
+    explains: tuple[str, ...] = ()
+    """Other requirements that were broken after it in the same scenarios."""
 
     @property
     def execution(self) -> Execution | None:
@@ -129,7 +131,9 @@ class ReportedFinding(Value, frozen=True):
 
 
 class RequirementResult(Value, frozen=True):
-    """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``."""
+    """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``;
+    ``seconds`` is the time that was spent on scenarios that are to exercise it.
+    """
 
     id: str
     clause: str
@@ -138,6 +142,7 @@ class RequirementResult(Value, frozen=True):
     exercised: int
     findings: tuple[ReportedFinding, ...] = ()
     reason: str = ""
+    seconds: float = 0.0
 
 
 class TransitionResult(Value, frozen=True):
@@ -150,11 +155,15 @@ class TransitionResult(Value, frozen=True):
 
 
 class IncidentReport(Value, frozen=True):
-    """An incident with its execution, or the shortest one of all ``occurrences`` that met it."""
+    """An incident with its execution, or the shortest one of all ``occurrences`` that met it.
+
+    ``requirements``: those that the scenarios were to exercise.
+    """
 
     incident: Incident
     execution: Execution
     occurrences: int = 1
+    requirements: tuple[str, ...] = ()
 
 
 class Effort(Value, frozen=True):
@@ -182,6 +191,10 @@ class Report(Value, frozen=True):
     seconds: float
     statement: Statement
     effort: Effort = Effort()
+    incomplete: str = ""
+    """Why the run ended before its end, empty if it did not. What is incomplete is not conformant."""
+    selection: str = ""
+    """What ``-k`` selected; empty after a run of everything. Only what was selected has verdicts, and what fails."""
 
 
 class FrameworkReport(Report, frozen=True, kw_only=True):
