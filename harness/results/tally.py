@@ -249,7 +249,7 @@ def ended_early(report: AnyReport, incomplete: str) -> AnyReport:
 
 
 def of_selection(report: AnyReport, expression: str, asked: Collection[str]) -> AnyReport:
-    """``report`` with the verdicts on what ``expression`` selected, the requirements ``asked``, and on what failed."""
-    results = tuple(r for r in report.requirements if r.id in asked or r.verdict == "fail")
+    """``report`` with the verdicts on what ``expression`` selected, the requirements ``asked``, and on what it showed besides."""
+    results = tuple(r for r in report.requirements if r.id in asked or r.findings or r.verdict in ("pass", "fail"))
     verdict = overall(results, v.incidents_of(report), report.incomplete)
     return msgspec.structs.replace(report, requirements=results, verdict=verdict, selection=expression)

@@ -194,7 +194,7 @@ class Report(Value, frozen=True):
     incomplete: str = ""
     """Why the run ended before its end, empty if it did not. What is incomplete is not conformant."""
     selection: str = ""
-    """What ``-k`` selected; empty after a run of everything. Only what was selected has verdicts, and what fails."""
+    """What ``-k`` selected; empty after a run of everything. What was not selected and not shown either has no verdict."""
 
 
 class FrameworkReport(Report, frozen=True, kw_only=True):
