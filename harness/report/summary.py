@@ -17,6 +17,9 @@ from ucm_cts.harness.results.values import IncidentReport, Overall, Report, Requ
 SHOWN = 12
 """The number of failed requirements, and of incidents, that are listed."""
 
+EXPLAINED = 6
+"""The number of other requirements that are named as explained by a failure."""
+
 _COLOURS: dict[Verdict, str] = {
     "fail": "red",
     "error": "magenta",
@@ -108,6 +111,12 @@ def _failure(result: RequirementResult, everything: bool) -> list[Text]:
         finding = failed.finding
         lines.append(cut(Text.assemble(("  expected  ", "green"), one_line(finding.expected, 300))))
         lines.append(cut(Text.assemble(("  observed  ", "red"), one_line(finding.observed, 300))))
+    explained = list(dict.fromkeys(id_ for found in result.findings for id_ in found.explains if id_ != result.id))
+    if explained:
+        others = f" and {len(explained) - EXPLAINED} others" if len(explained) > EXPLAINED else ""
+        lines.append(
+            cut(Text(f"  explains {', '.join(explained[:EXPLAINED])}{others}: broken after it, in the same scenarios"))
+        )
     return [*lines, *(cut(Text.assemble(("  known     ", "yellow"), one_line(f.waived, 300))) for f in waived)]
 
 
