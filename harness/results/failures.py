@@ -64,7 +64,8 @@ def repeat_command(report: v.Report) -> str:
     adapter, profile = shlex.quote(one_line(report.adapter)), shlex.quote(one_line(report.profile))
     source = report.statement.source
     statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
-    statement += f" -k {shlex.quote(one_line(report.selection))}" if report.selection else ""
+    selection = f" -k {shlex.quote(one_line(report.selection))}" if report.selection else ""
+    statement = selection + statement
     if not isinstance(report, v.FrameworkReport):
         return f"ucm-cts run --toolchain {adapter} --profile {profile} --seed {report.seed}{statement}"
     runs = f" --repeat {report.runs}" if report.runs > 1 else ""
