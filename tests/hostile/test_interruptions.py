@@ -145,6 +145,31 @@ def test_series_of_another_product_is_not_resumed(here: Path, calls: int) -> Non
     assert json.loads((here / "out" / "runs" / "run-1.json").read_text()) == before
 
 
+def test_interrupted_pytest_session_says_so_in_its_report(here: Path, calls: int) -> None:
+    (here / "until").write_text("1")
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "-p",
+        "no:xdist",
+        "--pyargs",
+        "ucm_cts.suite",
+    ]
+    options = ["--iut", "waiting:Waits", "-k", "whole-life or many-members", "--iut-out", "out", "--iut-timeout", "60"]
+    with subprocess.Popen([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert select.select([calls], [], [], 60)[0], "the framework was never called"
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert process.returncode == pytest.ExitCode.INTERRUPTED, out + err
+    report = report_of(here / "out")
+    assert report["verdict"] == "inconclusive"
+    assert report["incomplete"].startswith("interrupted after ")
+
+
 @pytest.fixture
 def handlers() -> Iterator[None]:
     before = {number: signal.getsignal(number) for number in SIGNALS}
