@@ -70,7 +70,7 @@ def cli() -> None:
     help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
 )
 @click.option("--failed-first", is_flag=True, help="Begin with what failed in the last run into the same --out.")
-@click.option("--resume", is_flag=True, help="Go on with an interrupted --repeat into the same --out.")
+@click.option("--resume", is_flag=True, help="Go on with the interrupted run in the same --out.")
 @click.option("--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement.")
 @click.pass_context
 def run(

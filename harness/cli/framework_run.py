@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +19,7 @@ from ucm_cts.harness.cli.options import greet, leave_with, name_of, nothing_sele
 from ucm_cts.harness.cli.run_checkpoints import CHECKPOINTS, Checkpoints
 from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.repeating import repeated, steady_search
 from ucm_cts.harness.hosting.hosts import HostUnavailable
@@ -32,6 +34,9 @@ from ucm_cts.harness.results.tally import ended_early, of_selection
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import check_subject, stated_by
+
+KEPT_EVERY = 60
+"""After so many seconds, what a run has measured is kept again."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +74,7 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
     if not purposes:
         names = (name for purpose in offered for name in (purpose.id, purpose.clause, *purpose.requirements))
         raise nothing_selected(wanted.expression, names, "test purpose")
-    with ends_like_interrupts() as interrupts, report_folder(wanted.out, [CHECKPOINTS]) as folder:
+    with ends_like_interrupts() as interrupts, report_folder(wanted.out, CHECKPOINTS) as folder:
         if wanted.failed_first:
             failed = failed_in(wanted.out, console).requirements
             purposes = tuple(sorted(purposes, key=lambda purpose: not failed.intersection(purpose.requirements)))
@@ -87,7 +92,7 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
             report = ended_early(report, incomplete)
             if wanted.expression:
                 report = of_selection(report, wanted.expression, asked_by(purposes, wanted.expression))
-            saved = keep_report(report, folder, () if report.incomplete else (CHECKPOINTS,))
+            saved = keep_report(report, folder, () if report.incomplete else CHECKPOINTS)
             leave_with(console, report, saved, known, wanted.everything)
 
 
@@ -115,19 +120,29 @@ class _Series:
         self._interrupts = interrupts
         self._seed = wanted.seed
         self._is_greeted = False
+        self._state: CampaignState | None = None
         self.reports: list[FrameworkReport] = []
 
     def run(self) -> str:
         """Run what is wanted. Returns why that ended early, empty if it did not; raises what prevents the first run."""
         if self._wanted.resume:
-            self.reports = self._checkpoints.read(self._wanted.seed if self._wanted.is_seeded else None)
-            self._seed = self.reports[0].seed
-            self.reports = self.reports[: self._wanted.repeat]
-            self._console.say(f"{len(self.reports)} of {self._wanted.repeat} runs had ended before")
+            self._resume()
         problem = self._run_once() if self.reports and len(self.reports) == self._wanted.repeat else ""
         while not problem and len(self.reports) < self._wanted.repeat:
             problem = self._run_once()
         return problem
+
+    def _resume(self) -> None:
+        self.reports, self._state = self._checkpoints.read(self._wanted.seed if self._wanted.is_seeded else None)
+        known = self.reports[0] if self.reports else self._state.report if self._state is not None else None
+        assert known is not None
+        self._seed = known.seed
+        self.reports = self.reports[: self._wanted.repeat]
+        ended = f"{len(self.reports)} of {self._wanted.repeat} runs had ended before"
+        part = (
+            f", and {len(self._state.done)} of {len(self._purposes)} test purposes" if self._state is not None else ""
+        )
+        self._console.say(f"{ended}{part}")
 
     def _run_once(self) -> str:
         """Run the next one, if one is missing. Returns why the series is not to go on, empty if it is."""
@@ -136,7 +151,8 @@ class _Series:
         try:
             with Driver(self._endpoint, self._seed + number - 1, self._wanted.limits) as driver:
                 identity = driver.identity
-                if self.reports and not _is_of(identity, self.reports[0]):
+                known = [*self.reports, *([self._state.report] if self._state is not None else [])]
+                if known and not _is_of(identity, known[0]):
                     another = f"another product, '{name_of(identity)}'"
                     if not self._is_greeted:
                         raise _Misfit(f"the runs that had ended before are of {another}; leave out --resume")
@@ -159,11 +175,18 @@ class _Series:
 
     def _measure(self, driver: Driver, which: str) -> str:
         campaign = Campaign(driver, self._wanted.profile, self._known, self._statement)
+        done = 0
+        if self._state is not None:
+            campaign.restore(self._state)
+            done, self._state = len(self._state.done), None
         problem = ""
         try:
-            self._check(campaign, which)
+            self._check(campaign, which, done)
         except KeyboardInterrupt:
-            problem = f"interrupted after {len(campaign.checked)} of {len(self._purposes)} test purposes"
+            with self._interrupts.held():
+                state = campaign.state
+                problem = f"interrupted after {len(state.done)} of {len(self._purposes)} test purposes"
+                self._checkpoints.keep_part(len(self.reports) + 1, state, self._console)
         with self._interrupts.held():
             if problem and self.reports:  # half a run would make verdicts unstable
                 return f"{problem} of run {len(self.reports) + 1}"
@@ -175,14 +198,20 @@ class _Series:
             return f"interrupted when {left} runs were left" if left else "interrupted when all runs had ended"
         return problem
 
-    def _check(self, campaign: Campaign, which: str) -> None:
+    def _check(self, campaign: Campaign, which: str, done: int) -> None:
         with progress_of(self._console) as progress:
-            task = progress.add_task(f"{which}checking", total=len(self._purposes))
-            failing = 0
+            task = progress.add_task(f"{which}checking", total=len(self._purposes), completed=done)
+            failing, kept = 0, time.monotonic()
             for checked in campaign.check(self._purposes):
                 failing += bool(checked.failures)
                 text = f"{which}{failing} failing, {one_line(checked.purpose.id, 50)}"
                 progress.update(task, advance=1, description=text)
+                if time.monotonic() - kept > KEPT_EVERY:
+                    with self._interrupts.held():
+                        self._checkpoints.keep_part(len(self.reports) + 1, campaign.state, self._console)
+                    kept = time.monotonic()
+                if self._interrupts.came:
+                    raise KeyboardInterrupt
             progress.update(task, description=f"{which}confirming failures")
             campaign.confirm()
             if failing:
@@ -211,7 +240,7 @@ def _measured(
     return (
         ucm_cts.__version__,
         [(r.id, r.rules, r.level) for r in load_requirements()],
-        [(purpose.id, purpose.requirements, purpose.scenarios) for purpose in purposes],
+        [(purpose.id, purpose.requirements, purpose.scenarios) for purpose in sorted(purposes, key=lambda p: p.id)],
         (endpoint.text, endpoint.kind, endpoint.target, endpoint.in_process),
         hashlib.sha256(target.read_bytes()).hexdigest() if target.is_file() else "",
         (wanted.profile, wanted.expression, wanted.systematic),

@@ -11,6 +11,7 @@ import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
+from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, timed_requirements
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.execution.shortening import Shortening
@@ -20,7 +21,7 @@ from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.tally import Cause, Tally, overall
-from ucm_cts.harness.results.values import Effort, Execution, FrameworkReport, TraceEvidence
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Effort, Execution, FrameworkReport, TraceEvidence
 from ucm_cts.harness.statement.checks import check_statement
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
@@ -67,27 +68,35 @@ class Campaign:
         self._confirmation = Confirmation(driver, self._monitor, driver.gaps)
         self._payloads = Payloads(driver.seed)
         self._timed: dict[str, tuple[str, Scenario]] = {}
+        self._done: list[str] = []
         self._spent: dict[str, float] = {}
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
     def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
-        """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged."""
+        """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged.
+
+        Those that were done in a state that was restored are left out.
+        """
         queue: list[TestPurpose] = []
+        before = frozenset(self._done)
 
         def cases() -> Iterator[tuple[str, Scenario]]:
             for purpose in purposes:
-                queue.append(purpose)
-                for name, scenario in self._scenarios_of(purpose):
-                    yield name, self._payloads.deal(scenario)
+                if purpose.id not in before:
+                    queue.append(purpose)
+                    for name, scenario in self._scenarios_of(purpose):
+                        yield name, self._payloads.deal(scenario)
 
         answers = self._driver.run(cases())
         failures: list[tuple[Finding | None, Execution]] = []
         done = 0
+        is_lost = False
         since = time.monotonic()
         for answer in answers:
             purpose = queue[0]
             failures.extend(self._take(answer, purpose))
+            is_lost |= answer.incident is not None and answer.incident.kind not in FRAMEWORK_INCIDENTS
             done += 1
             if done == len(purpose.scenarios):
                 now = time.monotonic()
@@ -96,8 +105,10 @@ class Campaign:
                     self._tally.seconds[requirement] += (now - since) / len(purpose.requirements)
                 since = now
                 self.checked.append(purpose)
+                if not is_lost:
+                    self._done.append(purpose.id)
                 yield Checked(queue.pop(0), done, tuple(failures))
-                failures, done = [], 0
+                failures, done, is_lost = [], 0, False
 
     def _scenarios_of(self, purpose: TestPurpose) -> tuple[tuple[str, Scenario], ...]:
         """Its scenarios; where values are drawn, within what the vendor says of them."""
@@ -180,6 +191,21 @@ class Campaign:
     def shorten(self) -> Iterator[Cause]:
         """Search the shortest scenario of each failure; yields each cause when it is done."""
         yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
+
+    @property
+    def state(self) -> CampaignState:
+        """What was measured so far, to be restored in another campaign of the same purposes."""
+        return CampaignState(self.report(), tuple(self._done), dict(self._timed))
+
+    def restore(self, state: CampaignState) -> None:
+        """Go on from ``state``. Call it before ``check``."""
+        self._tally.restore(state.report)
+        self._tally.measures.pop(NOT_CONFIRMED, None)  # they will be
+        self._timed.update(state.timed)
+        self._done += state.done
+        self._spent = dict(state.report.effort.seconds)
+        self._began -= state.report.seconds
+        self._started = state.report.started
 
     def report(self, incomplete: str = "") -> FrameworkReport:
         """All verdicts of the run so far; ``incomplete`` says why it ended early, if it did."""

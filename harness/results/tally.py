@@ -150,6 +150,26 @@ class Tally:
             self.exercised[finding.requirement] += 1
             self.add_failure(finding, v.TraceEvidence(execution))
 
+    def restore(self, report: v.FrameworkReport) -> None:
+        """Add what another tally of the same run had reported. What no run decides must have been added before."""
+        for result in report.requirements:
+            measured = [failed for failed in result.findings if failed.evidence is not None]
+            self.exercised[result.id] = max(self.exercised[result.id], result.exercised)
+            self.seconds[result.id] += result.seconds
+            for failed in measured:
+                cause = cause_of(failed.finding)
+                self.failures[cause] = msgspec.structs.replace(failed, waived="", explains=())
+                self._explained.setdefault(cause, set()).update(failed.explains)
+        for row in report.transitions:
+            self.rows[row.row] = RowTally(row.exercised, row.violated, {*row.readings})
+        for incident in report.incidents:
+            if incident.incident.kind != "untried":  # their test purposes are run again
+                self._incidents.add_report(incident)
+        self._observe(report.readings)
+        self.measures.update(report.effort.measures)
+        self.scenarios += report.scenarios
+        self.events += report.events
+
     @property
     def incidents(self) -> tuple[v.IncidentReport, ...]:
         """One of each cause, as scenarios that were not tried for the same reason are one."""

@@ -135,7 +135,7 @@ WRONG_USES: dict[str, tuple[str, str]] = {
     "profile of tool chains": ("run reference-py --profile pim", "name the file that describes one with --toolchain"),
     "selection": ("run reference-py -k nothing-like-it", "no test purpose matches -k 'nothing-like-it'"),
     "nearly a selection": (f"run reference-py -k {REQUIREMENT}x", f"near it: {REQUIREMENT}"),
-    "nothing to resume": ("run reference-py --resume", "holds no interrupted series of runs"),
+    "nothing to resume": ("run reference-py --resume", "holds no interrupted run; leave out --resume"),
     "seed": ("run reference-py --seed x", "'x' is not a valid integer"),
     "timeout": ("run reference-py --timeout 0", "0.0 is not in the range"),
     "timeout below nothing": ("run reference-py --timeout -1", "-1.0 is not in the range"),
