@@ -74,26 +74,22 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
     if not purposes:
         names = (name for purpose in offered for name in (purpose.id, purpose.clause, *purpose.requirements))
         raise nothing_selected(wanted.expression, names, "test purpose")
-    with ends_like_interrupts() as interrupts, report_folder(wanted.out, CHECKPOINTS) as folder:
+    with (
+        ends_like_interrupts() as interrupts,
+        interrupts.held(),  # nothing is lost between the places that permit interrupts
+        report_folder(wanted.out, CHECKPOINTS) as folder,
+    ):
         if wanted.failed_first:
             failed = failed_in(wanted.out, console).requirements
             purposes = tuple(sorted(purposes, key=lambda purpose: not failed.intersection(purpose.requirements)))
         checkpoints = Checkpoints(folder, _measured(wanted, statement, known, purposes, endpoint))
         series = _Series(wanted, endpoint, statement, known, purposes, checkpoints, console, interrupts)
         incomplete = series.run()
-        try:
-            report = repeated(series.reports, steady_search(endpoint, wanted.limits, statement.ics))
-        except HostUnavailable:
-            report = repeated(series.reports, lambda failed, seed: None)
-        except KeyboardInterrupt:
-            incomplete = incomplete or "interrupted when all runs had ended"
-            report = repeated(series.reports, lambda failed, seed: None)
-        with interrupts.held():
-            report = ended_early(report, incomplete)
-            if wanted.expression:
-                report = of_selection(report, wanted.expression, asked_by(purposes, wanted.expression))
-            saved = keep_report(report, folder, () if report.incomplete else CHECKPOINTS)
-            leave_with(console, report, saved, known, wanted.everything)
+        report = ended_early(series.joined(), incomplete)
+        if wanted.expression:
+            report = of_selection(report, wanted.expression, asked_by(purposes, wanted.expression))
+        saved = keep_report(report, folder, () if report.incomplete else CHECKPOINTS)
+        leave_with(console, report, saved, known, wanted.everything)
 
 
 class _Series:
@@ -144,13 +140,22 @@ class _Series:
         )
         self._console.say(f"{ended}{part}")
 
+    def joined(self) -> FrameworkReport:
+        """One report of all runs. What differs between them is searched for, unless nothing more is to be run."""
+        try:
+            with self._interrupts.permitted():
+                return repeated(self.reports, steady_search(self._endpoint, self._wanted.limits, self._statement.ics))
+        except (HostUnavailable, KeyboardInterrupt):
+            return repeated(self.reports, lambda failed, seed: None)
+
     def _run_once(self) -> str:
         """Run the next one, if one is missing. Returns why the series is not to go on, empty if it is."""
         number, of = len(self.reports) + 1, self._wanted.repeat
         which = f"run {number} of {of}"
         try:
             with Driver(self._endpoint, self._seed + number - 1, self._wanted.limits) as driver:
-                identity = driver.identity
+                with self._interrupts.permitted():
+                    identity = driver.identity
                 known = [*self.reports, *([self._state.report] if self._state is not None else [])]
                 if known and not _is_of(identity, known[0]):
                     another = f"another product, '{name_of(identity)}'"
@@ -181,22 +186,19 @@ class _Series:
             done, self._state = len(self._state.done), None
         problem = ""
         try:
-            self._check(campaign, which, done)
+            with self._interrupts.permitted():
+                self._check(campaign, which, done)
         except KeyboardInterrupt:
-            with self._interrupts.held():
-                state = campaign.state
-                problem = f"interrupted after {len(state.done)} of {len(self._purposes)} test purposes"
-                self._checkpoints.keep_part(len(self.reports) + 1, state, self._console)
-        with self._interrupts.held():
-            if problem and self.reports:  # half a run would make verdicts unstable
-                return f"{problem} of run {len(self.reports) + 1}"
-            self.reports.append(campaign.report(problem))
-            if self._wanted.repeat > 1 and not problem:
-                self._checkpoints.keep(len(self.reports), self.reports[-1], self._console)
-        if self._interrupts.came and not problem:
-            left = self._wanted.repeat - len(self.reports)
-            return f"interrupted when {left} runs were left" if left else "interrupted when all runs had ended"
-        return problem
+            state = campaign.state
+            problem = f"interrupted after {len(state.done)} of {len(self._purposes)} test purposes"
+            self._checkpoints.keep_part(len(self.reports) + 1, state, self._console)
+        if problem and self.reports:  # half a run would make verdicts unstable
+            return f"{problem} of run {len(self.reports) + 1}"
+        self.reports.append(campaign.report(problem))
+        if self._wanted.repeat > 1 and not problem:
+            self._checkpoints.keep(len(self.reports), self.reports[-1], self._console)
+        left = self._wanted.repeat - len(self.reports)
+        return problem or (f"interrupted when {left} runs were left" if self._interrupts.came and left else "")
 
     def _check(self, campaign: Campaign, which: str, done: int) -> None:
         with progress_of(self._console) as progress:

@@ -106,6 +106,17 @@ class Interrupts:
         finally:
             self._held -= 1
 
+    @contextmanager
+    def permitted(self) -> Iterator[None]:
+        """Within what is held: a request interrupts again, also one that came before."""
+        if self.came:
+            raise KeyboardInterrupt
+        before, self._held = self._held, 0
+        try:
+            yield
+        finally:
+            self._held = before
+
     def note(self, number: int, frame: FrameType | None) -> None:
         """The handler of signals."""
         first, self.came = not self.came, True

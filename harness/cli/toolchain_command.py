@@ -9,7 +9,7 @@ from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.cli.last_run import failed_in
 from ucm_cts.harness.cli.options import greet, leave_with, name_of, nothing_selected
-from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.selection import words_of
 from ucm_cts.harness.report.write import keep_report, report_folder
@@ -59,7 +59,7 @@ def certify_toolchain(
     if not examination.models:
         raise nothing_selected(expression, ids, "model")
     console = Output()
-    with ends_like_interrupts() as interrupts, report_folder(out) as folder:
+    with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(out) as folder:
         greet(console, name_of(toolchain), profile, seed)
         campaign = ToolChainCampaign(
             processor,
@@ -72,15 +72,13 @@ def certify_toolchain(
             seed=seed,
             first=failed_in(out, console).models if failed_first else (),
         )
-        incomplete = _conduct(campaign, len(examination.models), console)
-        with interrupts.held():
-            if not campaign.is_judged:
-                campaign.judge()
-            report = ended_early(campaign.report(), incomplete)
-            if expression:
-                shown = {result.id for result in report.requirements if result.exercised}
-                report = of_selection(report, expression, asked | shown)
-            leave_with(console, report, keep_report(report, folder), known, everything)
+        incomplete = _conduct(campaign, len(examination.models), console, interrupts)
+        if not campaign.is_judged:
+            campaign.judge()
+        report = ended_early(campaign.report(), incomplete)
+        if expression:
+            report = of_selection(report, expression, asked | campaign.asked_by(words_of(expression)))
+        leave_with(console, report, keep_report(report, folder), known, everything)
 
 
 def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:
@@ -91,19 +89,20 @@ def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:
     return profiles
 
 
-def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> str:
+def _conduct(campaign: ToolChainCampaign, models: int, console: Output, interrupts: Interrupts) -> str:
     """Process all models, judge and confirm. Returns why that ended early, empty if it did not."""
     done = 0
     with progress_of(console) as progress:
         task = progress.add_task("asking", total=models)
         try:
-            for name in campaign.process():
-                done += 1
-                progress.update(task, advance=1, description=f"asking {one_line(name, 40)}")
-            progress.update(task, description="confirming failures")
-            campaign.judge()
-            for _ in campaign.confirm():
-                pass
+            with interrupts.permitted():
+                for name in campaign.process():
+                    done += 1
+                    progress.update(task, advance=1, description=f"asking {one_line(name, 40)}")
+                progress.update(task, description="confirming failures")
+                campaign.judge()
+                for _ in campaign.confirm():
+                    pass
         except KeyboardInterrupt:
             return f"interrupted after {done} of {models} models"
     return ""

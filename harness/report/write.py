@@ -67,8 +67,9 @@ def keep_files(files: Mapping[str, bytes], folder: OutFolder, instead_of: Sequen
     try:
         folder.save(files, instead_of)
         return Saved(folder.path)
-    except (OSError, WrongUse) as error:
-        problem = str(error) if isinstance(error, WrongUse) else f"'{folder.path}': {error.strerror or error}"
+    except (OSError, ValueError, WrongUse) as error:
+        why = getattr(error, "strerror", None) or error
+        problem = str(error) if isinstance(error, WrongUse) else f"'{folder.path}': {why}"
     for parent in (folder.path.parent, Path.cwd(), Path(tempfile.gettempdir())):
         place: Path | None = None
         try:

@@ -187,6 +187,10 @@ class ToolChainCampaign:
             finally:
                 pool.shutdown(cancel_futures=True)
 
+    def asked_by(self, words: Collection[str]) -> set[str]:
+        """The requirements that models ask about whose names hold one of ``words``."""
+        return {fact.requirement for fact in self._facts if any(word in fact.models[-1].lower() for word in words)}
+
     def report(self) -> ToolChainReport:
         """All verdicts of the run so far."""
         results = self._tally.results(self._requirements, self._known)

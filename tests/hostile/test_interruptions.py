@@ -99,7 +99,7 @@ def test_interrupted_series_goes_on_where_it_stopped(here: Path, calls: int) -> 
     assert ucm_cts("run", "waiting:Waits", *SELECTION, "--seed", "5", "--out", "whole").status == 0
     per_run = (here / "made").stat().st_size
     (here / "made").unlink()
-    (here / "until").write_text(str(3 * per_run - 2))
+    (here / "until").write_text(str(2 * per_run + per_run // 2))
     status, _, err, _ = interrupted(calls, signal.SIGTERM, *SELECTION, "--seed", "5", "--repeat", "4")
     assert (status, err) == (1, "")
     report = report_of(here / "out")
@@ -168,6 +168,22 @@ def test_interrupted_pytest_session_says_so_in_its_report(here: Path, calls: int
     report = report_of(here / "out")
     assert report["verdict"] == "inconclusive"
     assert report["incomplete"].startswith("interrupted after ")
+
+
+def test_interrupted_run_on_a_tool_chain_says_so(here: Path, calls: int) -> None:
+    command = json.dumps(["sh", "-c", f"echo asked > {here}/calls; exec sleep 1", "{model}"])
+    (here / "slow.toml").write_text(f'product = "slow"\nversion = "1"\n[check]\ncommand = {command}\n')
+    run = [sys.executable, "-m", "ucm_cts", "run", "--toolchain", "slow.toml", "--profile", "pim", "--out", "out"]
+    with subprocess.Popen(run, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert select.select([calls], [], [], 60)[0], "the tool was never called"
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
+        out, err = process.communicate(timeout=60)
+    assert (process.returncode, err) == (1, "")
+    assert "interrupted: the report holds what was measured so far" in out
+    report = report_of(here / "out")
+    assert report["incomplete"].startswith("interrupted after ")
+    assert report["verdict"] != "conformant"
 
 
 @pytest.fixture
