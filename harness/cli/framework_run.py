@@ -1,4 +1,4 @@
-"""``ucm-cts run ADAPTER``: certifies a framework, once or several times, and keeps what was measured whatever happens."""
+"""Certifies a framework (``ucm-cts run ADAPTER``), once or several times, and keeps what was measured whatever happens."""
 
 from __future__ import annotations
 

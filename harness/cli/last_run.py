@@ -1,4 +1,4 @@
-"""What failed in the last run, as its report in the folder of ``--out`` says: ``--failed-first`` begins with it."""
+"""Reads what failed in the last run from its report in the folder of ``--out``: ``--failed-first`` begins with it."""
 
 from __future__ import annotations
 

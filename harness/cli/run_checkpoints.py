@@ -1,6 +1,4 @@
-"""Checkpoints of ``ucm-cts run``: the report of each run that has ended, and what the present one has measured so far, are kept,
-so that ``--resume`` can go on.
-"""
+"""Keeps the report of each run that has ended, and what the present one has measured so far, so that ``--resume`` can go on."""
 
 from __future__ import annotations
 

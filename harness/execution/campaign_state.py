@@ -1,4 +1,4 @@
-"""What a campaign has measured so far, as a value: an interrupted run goes on from it."""
+"""Defines what a campaign has measured so far, as a value: an interrupted run goes on from it."""
 
 from __future__ import annotations
 

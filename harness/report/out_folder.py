@@ -1,4 +1,4 @@
-"""The folder that a user names for results (``--out``): a command replaces what earlier commands wrote there, and nothing else.
+"""Writes results into the folder that a user names (``--out``), replaces what earlier commands wrote there, and touches nothing else.
 
 A manifest in the folder names the files that commands wrote, with digests. A file is a command's own if the manifest names it
 and its content is unchanged. Links are not followed, and one command at a time works in a folder.
