@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import re
+import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,9 +20,9 @@ from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.exploration import Exploration, Replayed
 from ucm_cts.harness.exploring.exploration import Progress as HowFar
 from ucm_cts.harness.exploring.memory import Memory, Remembered, open_databases
-from ucm_cts.harness.exploring.printing import found_text, is_found, known_text, mishaps, write_exploration
+from ucm_cts.harness.exploring.printing import FILE, exploration_file, found_text, is_found, known_text, mishaps
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.report.write import prepare_folder, write_failures
+from ucm_cts.harness.report.write import FAILURE_FILES, failure_files, keep_files, report_folder
 from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.files import check_subject, stated_by
@@ -102,20 +103,29 @@ def explore(
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     incident_seconds = FOR_INCIDENTS * budget.amount if budget.is_time else Limits.incident_seconds
     limits = Limits(timeout, incident_seconds=incident_seconds)
-    with ends_like_interrupts(), Driver(locate(adapter, in_process), drawn, limits) as driver:
+    endpoint = locate(adapter, in_process)
+    with (
+        ends_like_interrupts() as interrupts,
+        report_folder(out, [FILE]) as folder,
+        Driver(endpoint, drawn, limits) as driver,
+    ):
         identity = driver.identity
         check_subject(statement, identity, profile)
-        prepare_folder(out)
         database = open_databases(databases or [str(out / "examples")])
         memory = Memory(database, identity.product, profile)
         options.greet(console, f"exploring {options.name_of(identity)}", profile, drawn)
         exploration = Exploration(driver, profile, statement, memory)
         known, far, interrupted = _explore(exploration, memory, budget, console)
-        report = exploration.report()
-    write_failures(report, out)
-    write_exploration(report, far, known, out)
-    _remember(report, memory)
-    console.print(found_text(report, far, out))
+        with interrupts.held():
+            report = exploration.report()
+            files = {**failure_files(report), FILE: exploration_file(report, far, known)}
+            saved = keep_files(files, folder, (*FAILURE_FILES, FILE))
+            _remember(report, memory)
+    console.print(found_text(report, far, saved.place or out))
+    if saved.problem:
+        where = f"they are in '{saved.place}'" if saved.place is not None else "no folder took them"
+        click.echo(f"ucm-cts: the results cannot be written: {saved.problem}; {where}", err=True)
+        sys.exit(options.HARNESS_FAILED)
     if interrupted:
         console.print("interrupted: what was found so far is kept, and shortened the next time")
     found = is_found(report)

@@ -12,6 +12,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.execution import leftovers
+from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, timed_requirements
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.execution.shortening import Shortening
@@ -21,7 +22,7 @@ from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.tally import Cause, Tally, overall
-from ucm_cts.harness.results.values import Effort, Execution, FrameworkReport, TraceEvidence
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Effort, Execution, FrameworkReport, TraceEvidence
 from ucm_cts.harness.statement.checks import check_statement
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
@@ -53,11 +54,8 @@ class Campaign:
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
         watch: Callable[[Answer, Verdicts], None] | None = None,
-        distinct_incidents: bool = False,
     ) -> None:
-        """``watch`` gets each answer with a trace, and the verdicts on it. Of ``distinct_incidents`` the
-        report has one of each cause, of others all.
-        """
+        """``watch`` gets each answer with a trace, and the verdicts on it."""
         self._driver = driver
         self._watch = watch
         self._profile = profile
@@ -66,41 +64,53 @@ class Campaign:
         self.checked: list[TestPurpose] = []
         self._monitor = Monitor(load_life_cycle(), self.statement.ics)
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
-        self._tally = Tally(distinct_incidents)
+        self._tally = Tally()
         check_statement(self.statement, profile, self._requirements, self._tally)
         self._confirmation = Confirmation(driver, self._monitor, driver.gaps)
         self._payloads = Payloads(driver.seed)
         self._timed: dict[str, tuple[str, Scenario]] = {}
+        self._done: list[str] = []
         self._spent: dict[str, float] = {}
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
     def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
-        """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged."""
+        """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged.
+
+        Those that were done in a state that was restored are left out.
+        """
         queue: list[TestPurpose] = []
+        before = frozenset(self._done)
 
         def cases() -> Iterator[tuple[str, Scenario]]:
             for purpose in purposes:
-                queue.append(purpose)
-                for name, scenario in self._scenarios_of(purpose):
-                    yield name, self._payloads.deal(scenario)
+                if purpose.id not in before:
+                    queue.append(purpose)
+                    for name, scenario in self._scenarios_of(purpose):
+                        yield name, self._payloads.deal(scenario)
 
         answers = self._driver.run(cases())
         failures: list[tuple[Finding | None, Execution]] = []
         done = 0
+        is_lost = False
         since = time.monotonic()
         for answer in answers:
             purpose = queue[0]
             failures.extend(self._take(answer, purpose))
+            is_lost |= answer.incident is not None and answer.incident.kind not in FRAMEWORK_INCIDENTS
             done += 1
             if done == len(purpose.scenarios):
                 failures.extend(self._examine_leftovers(purpose) if not failures else ())
                 now = time.monotonic()
                 self._spent[purpose.clause] = self._spent.get(purpose.clause, 0.0) + now - since
+                for requirement in purpose.requirements:
+                    self._tally.seconds[requirement] += (now - since) / len(purpose.requirements)
                 since = now
                 self.checked.append(purpose)
+                if not is_lost:
+                    self._done.append(purpose.id)
                 yield Checked(queue.pop(0), done, tuple(failures))
-                failures, done = [], 0
+                failures, done, is_lost = [], 0, False
 
     def _scenarios_of(self, purpose: TestPurpose) -> tuple[tuple[str, Scenario], ...]:
         """Its scenarios; where values are drawn, within what the vendor says of them."""
@@ -207,8 +217,23 @@ class Campaign:
         """Search the shortest scenario of each failure; yields each cause when it is done."""
         yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
 
-    def report(self) -> FrameworkReport:
-        """All verdicts of the run so far."""
+    @property
+    def state(self) -> CampaignState:
+        """What was measured so far, to be restored in another campaign of the same purposes."""
+        return CampaignState(self.report(), tuple(self._done), dict(self._timed))
+
+    def restore(self, state: CampaignState) -> None:
+        """Go on from ``state``. Call it before ``check``."""
+        self._tally.restore(state.report)
+        self._tally.measures.pop(NOT_CONFIRMED, None)  # they will be
+        self._timed.update(state.timed)
+        self._done += state.done
+        self._spent = dict(state.report.effort.seconds)
+        self._began -= state.report.seconds
+        self._started = state.report.started
+
+    def report(self, incomplete: str = "") -> FrameworkReport:
+        """All verdicts of the run so far; ``incomplete`` says why it ended early, if it did."""
         results = self._tally.results(self._requirements, self.known)
         incidents = self._tally.incidents
         identity = self._driver.identity
@@ -216,7 +241,7 @@ class Campaign:
             product=identity.product,
             version=identity.version,
             profile=self._profile,
-            verdict=overall(results, incidents),
+            verdict=overall(results, incidents, incomplete),
             requirements=results,
             transitions=self._tally.transitions(load_life_cycle()),
             incidents=incidents,
@@ -233,4 +258,5 @@ class Campaign:
                 dict(self._tally.measures.most_common()),
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
             ),
+            incomplete=incomplete,
         )

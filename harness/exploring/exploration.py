@@ -85,7 +85,7 @@ class Exploration:
         self._profile = profile
         self._statement = statement
         self._memory = memory
-        self._campaign = Campaign(driver, profile, (), statement, self._watch, distinct_incidents=True)
+        self._campaign = Campaign(driver, profile, (), statement, self._watch)
         self._random = random.Random(f"exploration {driver.seed}")
         self._all_rows = load_life_cycle().rows
         self._guide = Guide(load_life_cycle())

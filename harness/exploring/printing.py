@@ -15,7 +15,6 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.exploring.exploration import Fate, Progress, Replayed
 from ucm_cts.harness.exploring.memory import Remembered
 from ucm_cts.harness.report.summary import cut
-from ucm_cts.harness.report.write import write_whole
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
 from ucm_cts.harness.results.foreign import clean_report, one_line
@@ -124,10 +123,10 @@ def mishaps(report: v.FrameworkReport) -> list[tuple[int, v.IncidentReport]]:
     ]
 
 
-def write_exploration(report: v.FrameworkReport, far: Progress, known: Sequence[Replayed], out: Path) -> None:
-    """Write ``exploration.json`` into ``out``."""
+def exploration_file(report: v.FrameworkReport, far: Progress, known: Sequence[Replayed]) -> bytes:
+    """``exploration.json``."""
     content = msgspec.json.encode(_found(clean_report(report), far, known))
-    write_whole(out / FILE, msgspec.json.format(content, indent=2) + b"\n")
+    return msgspec.json.format(content, indent=2) + b"\n"
 
 
 def _found(report: v.FrameworkReport, far: Progress, known: Sequence[Replayed]) -> Found:

@@ -65,6 +65,11 @@ def published_statement(text: str) -> Path | None:
 def locate(text: str, in_process: bool = False) -> Endpoint:
     """The endpoint that ``text`` names. Raises ``WrongUse``."""
     published = _published(GROUP)
+    if not text:
+        raise WrongUse(
+            f"no ADAPTER is named: which framework is meant? {_what_there_is(text, published)}. "
+            "docs/adapter-python.md, adapter-cpp.md and adapter-java.md say how to write one for your framework"
+        )
     endpoint = _follow(published[text]) if text in published else _parse(text, published)
     if in_process and endpoint.kind != "python":
         raise WrongUse(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, load_requirements
@@ -75,5 +75,20 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
     """The purposes whose id, clause or requirements contain one of the words of ``expression`` (separated by ``or``)."""
-    words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
+    words = words_of(expression)
     return tuple(p for p in purposes if any(w in " ".join((p.id, p.clause, *p.requirements)).lower() for w in words))
+
+
+def asked_by(purposes: Iterable[TestPurpose], expression: str) -> frozenset[str]:
+    """The requirements that ``expression`` asks for: all of a purpose whose id or clause it names, else those that it names."""
+    words = words_of(expression)
+    asked: set[str] = set()
+    for purpose in purposes:
+        whole = any(word in part.lower() for word in words for part in (purpose.id, purpose.clause))
+        asked.update(r for r in purpose.requirements if whole or any(word in r.lower() for word in words))
+    return frozenset(asked)
+
+
+def words_of(expression: str) -> list[str]:
+    """The words of ``expression``, in small letters."""
+    return [word.strip().lower() for word in expression.split(" or ") if word.strip()]

@@ -21,10 +21,8 @@ EVENTS = 50
 TRACE = 500
 """The number of events that are written of the end of an unstable finding's trace."""
 
-
 OUTPUT = 4_000
 """The most characters that are written of what a command printed."""
-
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Base of the values of ``report.json``: every field is always there."""
@@ -39,7 +37,6 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         }
         return cls(**same, **others)
 
-
 class FindingEntry(Entry, frozen=True):
     """One cause of failure.
 
@@ -50,6 +47,7 @@ class FindingEntry(Entry, frozen=True):
     ``model`` is the file of a tool chain's model, ``command`` the command that was given it, ``status`` its exit status,
     ``output`` what it printed, and ``place`` the wrong place in a generated file.
     ``trace`` is a trace of an unstable finding, ``steady`` one of the same scenario without the finding, if there is one.
+    ``explains``: other requirements that were broken after it in the same scenarios.
     """
 
     rule: str
@@ -68,7 +66,7 @@ class FindingEntry(Entry, frozen=True):
     place: str = ""
     trace: tuple[Event, ...] = ()
     steady: tuple[Event, ...] = ()
-
+    explains: tuple[str, ...] = ()
 
 class RequirementEntry(Entry, frozen=True):
     """One requirement of the catalogue with its verdict.
@@ -76,6 +74,7 @@ class RequirementEntry(Entry, frozen=True):
     ``caused_by`` is a requirement from whose violation all its failures may follow, empty if there is none.
     ``decides``: whether it decides the verdict of the run; a recommendation (level ``should``) does not.
     ``derived``: why it holds although the text does not say it; empty if the text says it.
+    ``seconds`` were spent on scenarios that are to exercise it.
     """
 
     id: str
@@ -89,10 +88,13 @@ class RequirementEntry(Entry, frozen=True):
     caused_by: str = ""
     decides: bool = True
     derived: str = ""
-
+    seconds: float = 0.0
 
 class IncidentEntry(Entry, frozen=True):
-    """A scenario that broke the framework's host."""
+    """A cause for which scenarios broke the framework's host.
+
+    ``occurrences`` counts the scenarios, ``scenario`` is the shortest one, ``requirements`` are those that they were to exercise.
+    """
 
     kind: str
     detail: str
@@ -100,7 +102,8 @@ class IncidentEntry(Entry, frozen=True):
     reproduced: bool
     scenario: str
     replay: str
-
+    occurrences: int = 1
+    requirements: tuple[str, ...] = ()
 
 class TransitionEntry(Entry, frozen=True):
     """One row of the life-cycle table."""
@@ -109,7 +112,6 @@ class TransitionEntry(Entry, frozen=True):
     exercised: int
     violated: int
     readings: tuple[str, ...]
-
 
 class StatementEntry(Entry, frozen=True):
     """What the vendor states; ``source`` is the file's name, empty if there was no file and defaults hold."""
@@ -123,9 +125,12 @@ class StatementEntry(Entry, frozen=True):
     ixit: dict[str, float]
     models: tuple[str, ...]
 
-
 class ReportEntry(Entry, frozen=True):
-    """The whole of ``report.json``."""
+    """The whole of ``report.json``.
+
+    ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
+    empty after a run of everything.
+    """
 
     product: str
     version: str
@@ -146,7 +151,8 @@ class ReportEntry(Entry, frozen=True):
     measures: dict[str, int]
     seconds_by_clause: dict[str, float]
     runs: int
-
+    incomplete: str = ""
+    selection: str = ""
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     """``report.json``, indented, ending with a newline. The report must be clean (``foreign.clean_report``)."""
@@ -161,13 +167,18 @@ def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     )
     return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
 
-
 def _body(report: v.Report) -> dict[str, Any]:
     """What differs between products. For a tool chain ``scenarios`` are models and ``events`` are facts."""
     if isinstance(report, v.FrameworkReport):
         return {
             "incidents": tuple(
-                IncidentEntry.of(item.incident, scenario=item.execution.name, replay=incident_file(number))
+                IncidentEntry.of(
+                    item.incident,
+                    scenario=item.execution.name,
+                    replay=incident_file(number),
+                    occurrences=item.occurrences,
+                    requirements=item.requirements,
+                )
                 for number, item in enumerate(report.incidents)
             ),
             "transitions": tuple(map(TransitionEntry.of, report.transitions)),
@@ -175,7 +186,6 @@ def _body(report: v.Report) -> dict[str, Any]:
     assert isinstance(report, v.ToolChainReport)
     counts = {"scenarios": report.models, "events": report.facts, "runs": 1}
     return {"incidents": (), "transitions": (), "readings": {}, **counts}
-
 
 def schema() -> dict[str, Any]:
     """JSON Schema of ``report.json``."""
@@ -185,7 +195,6 @@ def schema() -> dict[str, Any]:
         **msgspec.json.schema(ReportEntry),
     }
 
-
 def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) -> RequirementEntry:
     findings = enumerate(shortest_first(result.findings))
     return RequirementEntry.of(
@@ -193,7 +202,6 @@ def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) 
         derived=known[result.id].derived if result.id in known else "",
         findings=tuple(_finding(failed, file_name(result.id, number)) for number, failed in findings),
     )
-
 
 def _finding(failed: v.ReportedFinding, replay: str) -> FindingEntry:
     finding = failed.finding

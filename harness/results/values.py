@@ -117,6 +117,8 @@ class ReportedFinding(Value, frozen=True):
     """Why the failure is known, empty if it is not."""
     unstable: str = ""
     """Why it is not held against the product: another run did not show it. Empty if it is held against it."""
+    explains: tuple[str, ...] = ()
+    """Other requirements that were broken after it in the same scenarios."""
 
     @property
     def execution(self) -> Execution | None:
@@ -133,6 +135,7 @@ class RequirementResult(Value, frozen=True):
     """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``.
 
     ``caused_by``: a requirement whose violation comes before each of its failures, so that they may follow from it.
+    ``seconds``: the time that was spent on scenarios that are to exercise it.
     A recommendation (level ``should``) that fails was not followed: it does not decide the verdict of the run.
     """
 
@@ -145,6 +148,7 @@ class RequirementResult(Value, frozen=True):
     reason: str = ""
     caused_by: str = ""
     level: Level = "shall"
+    seconds: float = 0.0
 
     @property
     def decides(self) -> bool:
@@ -162,11 +166,15 @@ class TransitionResult(Value, frozen=True):
 
 
 class IncidentReport(Value, frozen=True):
-    """An incident with its execution, or the shortest one of all ``occurrences`` that met it."""
+    """An incident with its execution, or the shortest one of all ``occurrences`` that met it.
+
+    ``requirements``: those that the scenarios were to exercise.
+    """
 
     incident: Incident
     execution: Execution
     occurrences: int = 1
+    requirements: tuple[str, ...] = ()
 
 
 class Effort(Value, frozen=True):
@@ -194,6 +202,10 @@ class Report(Value, frozen=True):
     seconds: float
     statement: Statement
     effort: Effort = Effort()
+    incomplete: str = ""
+    """Why the run ended before its end, empty if it did not. What is incomplete is not conformant."""
+    selection: str = ""
+    """What ``-k`` selected; empty after a run of everything. What was not selected and not shown either has no verdict."""
 
 
 class FrameworkReport(Report, frozen=True, kw_only=True):
