@@ -64,7 +64,7 @@ def result(name: str, caused_by: str = "") -> RequirementResult:
 
 def test_followers_are_listed_with_their_cause() -> None:
     failed = [result(ADD), result(LIST, ADD), result("R-11.2.3-03", "R-11.1.1-01")]
-    fixes = to_fix(sample(requirements=tuple(failed)))
+    fixes = to_fix(sample(requirements=tuple(failed), incidents=()))
     assert [(fix.result and fix.result.id, [f.id for f in fix.followers]) for fix in fixes] == [
         (ADD, [LIST]),
         ("R-11.2.3-03", []),
