@@ -138,6 +138,7 @@ class ReportEntry(Entry, frozen=True):
     measures: dict[str, int]
     seconds_by_clause: dict[str, float]
     runs: int
+    provoked: dict[str, int]
 
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -166,7 +167,7 @@ def _body(report: v.Report) -> dict[str, Any]:
         }
     assert isinstance(report, v.ToolChainReport)
     counts = {"scenarios": report.models, "events": report.facts, "runs": 1}
-    return {"incidents": (), "transitions": (), "readings": {}, **counts}
+    return {"incidents": (), "transitions": (), "readings": {}, "provoked": {}, **counts}
 
 
 def schema() -> dict[str, Any]:

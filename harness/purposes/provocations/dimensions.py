@@ -51,6 +51,11 @@ class NamedAction(Value, frozen=True):
     name: str
     plan: tuple[Action, ...]
 
+    @property
+    def tag(self) -> str:
+        """The action as plans spell it."""
+        return str(self.plan[0].__struct_config__.tag)
+
 
 NOTHING = NamedAction("nothing", ())
 """What a body does while an operation is refused that does not enter it."""
@@ -76,6 +81,12 @@ class Excluded(Value, frozen=True):
             and _is_one_of(cell.place, self.places)
             and _is_one_of(cell.kind, self.kinds)
         )
+
+    def holds_always(self, hook: Hook, by: str, action: str) -> bool:
+        """Does it exclude this, whatever the other dimensions are?"""
+        others = (*self.aftermaths, *self.places, *self.kinds)
+        named = _is_one_of(hook, self.hooks) and _is_one_of(by, self.by) and _is_one_of(action, self.actions)
+        return named and not others
 
     def holds_at(self, entrance: Entrance) -> bool:
         """Does it exclude cells of ``entrance``?"""
@@ -119,6 +130,10 @@ class Dimensions(Value, frozen=True):
         """All that a cell may begin with, by name."""
         refusals = (Entrance(r.name, past, r.exercises, step=r.step) for r in self.refusals for past in r.after)
         return {entrance.name: entrance for entrance in (*self.entrances, *refusals)}
+
+    def why_never(self, hook: Hook, by: str, action: str) -> str:
+        """The reason why no body does ``action`` in ``hook`` when ``by`` leads there; empty if one may."""
+        return next((excluded.reason for excluded in self.excluded if excluded.holds_always(hook, by, action)), "")
 
     def why_empty(self, cell: Cell) -> str:
         """The reason why there is no scenario for ``cell``; empty if there may be one."""
