@@ -17,6 +17,7 @@ from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, ti
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.provocations.coverage import provocations
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure
@@ -128,6 +129,7 @@ class Campaign:
             yield from judged
             return
         verdicts = self._monitor.judge(answer.disguised, answer.trace)
+        self._tally.provoked.update(p.name for p in provocations(answer.disguised, answer.trace))
         if self._watch is not None:
             self._watch(answer, verdicts)
         if not verdicts.findings:
@@ -254,6 +256,7 @@ class Campaign:
             events=self._tally.events,
             statement=self.statement,
             readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},
+            provoked=dict(sorted(self._tally.provoked.items())),
             effort=Effort(
                 dict(self._tally.measures.most_common()),
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},

@@ -59,6 +59,7 @@ def repeated(reports: Sequence[v.FrameworkReport], steady: Steady) -> v.Framewor
         scenarios=sum(report.scenarios for report in reports),
         events=sum(report.events for report in reports),
         readings=_readings(reports),
+        provoked=dict(sum((Counter(report.provoked) for report in reports), Counter())),
         effort=_effort(reports),
         runs=len(reports),
         incomplete=incomplete,

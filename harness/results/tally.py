@@ -45,6 +45,7 @@ class Tally:
         self.scenarios = 0
         self.events = 0
         self.measures: Counter[str] = Counter()
+        self.provoked: Counter[str] = Counter()
         self.readings: dict[str, set[str]] = {}
         self._settled: dict[str, tuple[v.Verdict, str]] = {}
         self._reasons: dict[str, str] = {}

@@ -218,6 +218,8 @@ class FrameworkReport(Report, frozen=True, kw_only=True):
     readings: dict[str, tuple[str, ...]]
     """The readings that were observed, by option."""
     runs: int = 1
+    provoked: dict[str, int] = {}
+    """How often bodies acted in a callback: by callback, operation that led there, and action."""
 
 
 class ToolChainReport(Report, frozen=True, kw_only=True):
