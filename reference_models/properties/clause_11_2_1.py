@@ -29,9 +29,22 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
     if callback.history.initialised:
         return
     declaration = runtime.scenario.components.get(event.component)
-    if declaration is None or not declaration.attributes:
+    if declaration is None:
         return
     held = event.attributes or {}
+    more = [name for name, value in held.items() if name not in declaration.attributes and not _is_default(value)]
+    if more:
+        some = ", ".join(f"{name}={held[name]}" for name in more[:_SHOWN])
+        yield check.fail(
+            "not configured",
+            expected=f"on_init of '{lane(*event.body)}' finds no value that nobody configured",
+            observed=f"on_init found {some}",
+            during=(callback.ongoing, event),
+            requirement=_BEFORE_INIT,
+        )
+        return
+    if not declaration.attributes:
+        return
     wrong = [a for a, value in declaration.attributes.items() if not _is_configured(held.get(a), value)]
     if not wrong:
         yield check.kept()
@@ -42,6 +55,11 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
         yield check.kept(_ATTRIBUTES)
     elif typed:
         yield _holds_others(check, _ATTRIBUTES, declaration, [a for a in wrong if a in typed], callback)
+
+
+def _is_default(value: str) -> bool:
+    """May an attribute have this value that nobody configured? A type's least value is no configuration (attribute-init-order)."""
+    return not value or read_spelled(value) in (0, False, "", [])
 
 
 def _is_configured(held: str | None, configured: str) -> bool:

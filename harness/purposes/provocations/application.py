@@ -35,10 +35,11 @@ _PATIENCE = 2000
 
 
 class Application:
-    """The application of one ``cell``."""
+    """The application of one ``cell``. What is held goes on after ``pause`` milliseconds, or at once."""
 
-    def __init__(self, cell: Cell) -> None:
+    def __init__(self, cell: Cell, pause: int = 0) -> None:
         self.cell = cell
+        self.pause = pause
         self.home = "box" if cell.place == "box" else s.MANAGER
         plan = {cell.entrance.hook: cell.action.plan} if cell.entrance.hook else {}
         sound = Declaration(("in.api",), ("out.api",), {"size": "12"}, True, cell.kind == "fragment")
@@ -97,7 +98,8 @@ class Application:
             return self._operation(number)
         worker = f"operator {number}"
         operation = tuple(msgspec.structs.replace(step, thread=worker) for step in self._operation(number))
-        return (*operation, s.Settle(worker), s.OpenGate(_GATE), s.Join(worker))
+        pause = (s.Pause(self.pause),) if self.pause else ()
+        return (*operation, s.ReachGate(_GATE) if pause else s.Settle(worker), *pause, s.OpenGate(_GATE), s.Join(worker))
 
     def _operation(self, number: int) -> tuple[Step, ...]:
         refused = self.cell.entrance.step
@@ -203,7 +205,8 @@ class Application:
         """The sub-container has been removed, or its removal has failed: the rest of the runtime is used."""
         match self.cell.aftermath:
             case "the same again":
-                return (s.RemoveContainer(self.home), s.GetComponents())
+                again = s.RemoveContainer(self.home)
+                return (again, again, s.GetComponents())
             case "undo and redo":
                 return (s.CreateContainer("second box"), *self._another("second box"), s.RemoveContainer("second box"))
             case "start and stop":

@@ -21,15 +21,24 @@ class Boundaries(Value, frozen=True):
 
     ``counts``: how many of each thing.
     ``sizes``: characters of attribute values.
+    ``callers``: how many callers at once, beside the pairs and triples of every kind.
+    ``durations``: milliseconds that a body stays in a callback.
     """
 
     counts: tuple[int, ...]
     sizes: tuple[int, ...]
+    callers: tuple[int, ...]
+    durations: tuple[int, ...]
+
+
+def load_boundaries() -> Boundaries:
+    """The boundaries of the suite."""
+    return read(SUITE / "boundaries.yaml", Boundaries)
 
 
 def boundary_purposes() -> list[TestPurpose]:
     """One purpose for each thing that is counted, and one for attribute values."""
-    boundaries = read(SUITE / "boundaries.yaml", Boundaries)
+    boundaries = load_boundaries()
     purposes = [
         TestPurpose(
             f"boundary/{what}",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 
 from ucm_cts.harness.purposes.provocations.application import Application
-from ucm_cts.harness.purposes.provocations.dimensions import Cell, load_cells
+from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
+from ucm_cts.harness.purposes.provocations.dimensions import Cell, load_cells, load_dimensions
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 
@@ -16,6 +18,23 @@ def provocation_purposes() -> list[TestPurpose]:
         *_purposes("provocation", "A body {action} in {entrance}.", [c for c in cells if c.entrance.hook]),
         *_purposes("refusal", "It is refused that {entrance}.", [c for c in cells if not c.entrance.hook]),
     ]
+
+
+def duration_purposes() -> list[TestPurpose]:
+    """Bodies that take their time: each entrance once, for each duration."""
+    dimensions, durations = load_dimensions(), load_boundaries().durations
+    held = next(action for action in dimensions.actions if action.name == "is held")
+    purposes = []
+    for entrance in dimensions.entrances:
+        order = itertools.product(dimensions.aftermaths, dimensions.places[::-1], dimensions.positions[1:], dimensions.kinds)
+        cells = (Cell(entrance, held, *others) for others in order)
+        cell = next(cell for cell in cells if not dimensions.why_empty(cell))
+        name = f"duration/{entrance.name}"
+        scenarios = tuple((f"{name}/{ms} ms, {cell.name}", Application(cell, ms).scenario()) for ms in durations)
+        text = f"A body takes its time in {entrance.name}."
+        exercises = entrance.exercises
+        purposes.append(TestPurpose(name, exercises[0].split("-")[1], text, exercises, scenarios))
+    return purposes
 
 
 def _purposes(family: str, text: str, cells: Iterable[Cell]) -> list[TestPurpose]:

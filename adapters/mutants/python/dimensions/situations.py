@@ -87,7 +87,7 @@ def in_a_second_container(container: History) -> bool:
 
 
 def after_a_removed_container(container: History) -> bool:
-    return vars(container.manager)["removed_containers"] > 0
+    return bool(vars(container.manager)["removed_containers"])
 
 
 def beside_a_running_container(container: History) -> bool:
