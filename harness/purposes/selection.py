@@ -17,6 +17,7 @@ from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.provocations.boundaries import boundary_purposes
 from ucm_cts.harness.purposes.provocations.contention import contention_purposes, service_contention_purposes
+from ucm_cts.harness.purposes.provocations.core_boundaries import core_boundary_purposes
 from ucm_cts.harness.purposes.provocations.later_use import later_use_purposes
 from ucm_cts.harness.purposes.provocations.purposes import duration_purposes, provocation_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
@@ -27,6 +28,7 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     overlap_purposes,
     crowd_purposes,
     service_contention_purposes,
+    core_boundary_purposes,
     functools.partial(purposes_of, "execution_policies"),
     message_purposes,
     service_purposes,

@@ -14,7 +14,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
 from ucm_cts.harness.purposes.provocations.dimensions import Cell
 
-_GATE = "inside"
+_GATE, _SECOND = "inside", "second box"
 _SERVER, _SUBJECT, _NEIGHBOUR, _OTHER = "server", "subject", "neighbour", "other"
 _PATIENCE = 2000
 _CYCLE, _RUNNING, _JOINED = "started and stopped", "started", "connected"
@@ -78,6 +78,8 @@ class Application:
             yield s.Start(home)
         if by == "invoke":
             yield self._look_up(_SUBJECT)
+        if self.cell.entrance.step is not None and _JOINED not in past:
+            yield self._look_up(_SERVER)
 
     @property
     def early(self) -> list[str]:
@@ -99,7 +101,13 @@ class Application:
         worker = f"operator {number}"
         operation = tuple(msgspec.structs.replace(step, thread=worker) for step in self._operation(number))
         pause = (s.Pause(self.pause),) if self.pause else ()
-        return (*operation, s.ReachGate(_GATE) if pause else s.Settle(worker), *pause, s.OpenGate(_GATE), s.Join(worker))
+        return (
+            *operation,
+            s.ReachGate(_GATE) if pause else s.Settle(worker),
+            *pause,
+            s.OpenGate(_GATE),
+            s.Join(worker),
+        )
 
     def _operation(self, number: int) -> tuple[Step, ...]:
         refused = self.cell.entrance.step
@@ -152,6 +160,12 @@ class Application:
                 return (*self._undone(), *self._operation(2), s.GetComponents(home))
             case "start and stop":
                 return (s.Start(home), s.Stop(home), s.Start(home), s.Stop(home), s.GetComponents(home))
+            case "complete it":
+                links = tuple(step for name in self.order if name != _SERVER for step in self._connect(name, 3))
+                calls = tuple(s.Invoke(_reference(name), number) for number, name in enumerate(self.order))
+                return (*links, s.Start(home), *map(self._look_up, self.order), *calls, s.Stop(home))
+            case "another container":
+                return (s.CreateContainer(_SECOND), *self._another(_SECOND), s.RemoveContainer(_SECOND))
             case "use all":
                 calls = tuple(s.Invoke(_reference(name), number) for number, name in enumerate(self.order))
                 return (s.Start(home), *map(self._look_up, self.order), *calls, s.Stop(home))
@@ -206,9 +220,9 @@ class Application:
         match self.cell.aftermath:
             case "the same again":
                 again = s.RemoveContainer(self.home)
-                return (again, again, s.GetComponents())
+                return (again, again, *self._another(s.MANAGER), s.GetComponents())
             case "undo and redo":
-                return (s.CreateContainer("second box"), *self._another("second box"), s.RemoveContainer("second box"))
+                return (s.CreateContainer(_SECOND), *self._another(_SECOND), s.RemoveContainer(_SECOND))
             case "start and stop":
                 return (s.Start(), s.Stop(), s.GetComponents())
             case "destroy":

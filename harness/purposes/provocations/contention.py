@@ -113,7 +113,11 @@ def _services(clients: int, uses: int) -> Scenario:
         ("in.api",), policies=(_UNPROTECTED,), plan={"method": (s.Answer("serve"),)}, ports={"in.api": "adder"}
     )
     components = {"server": answer}
-    steps: list[Step] = [s.Link(SERVICE, "adder", "line"), s.AddComponent("server"), provided_end(SERVICE, "line", "server")]
+    steps: list[Step] = [
+        s.Link(SERVICE, "adder", "line"),
+        s.AddComponent("server"),
+        provided_end(SERVICE, "line", "server"),
+    ]
     for number, name in enumerate(_users(clients)):
         actions = tuple(s.CallMethod("out.api", "serve", (1000 * number + use,)) for use in range(uses))
         components[name] = _user(actions, "adder")
