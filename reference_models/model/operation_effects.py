@@ -50,7 +50,8 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
     bodies = [body for body in seen if body not in runtime.bodies]
     own = [b for b in bodies if b[0] == step.component]
     if not isinstance(value, int) or isinstance(value, bool):
-        ongoing.container.failed_adds += 1
+        if declaration is not None and raises(declaration, "on_init", "set_container_interface"):
+            ongoing.container.failed_adds += 1
         runtime.discarded.update(body for body in bodies if body in ongoing.by_body)
         return
     member = Member(

@@ -19,7 +19,7 @@ from ucm_cts.harness.purposes.provocations.dimensions import (
     load_dimensions,
 )
 
-OF_ACTIONS, OF_REFUSALS = 3, 3
+OF_ACTIONS, OF_REFUSALS = 3, 2
 """Every possible combination of so many values, each of another dimension, is in some cell."""
 
 Chosen = dict[str, dict[str, list[list[str]]]]

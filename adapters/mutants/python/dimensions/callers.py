@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TypeVar
 
@@ -16,11 +16,19 @@ from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, PeerProxy, 
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.execution import Trigger
 from ucm_cts.adapters.reference.python.framework import Container
-from ucm_cts.adapters.reference.python.members import Connection, Failures, Member
+from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
 
-_CALLS = ("R-10.1.3.2-08", "R-10.1.3.2-15", "R-11.1.2-02", "R-11.1.3-01", "R-11.2.1.2-07", "R-11.2.3-03")
+_CALLS = (
+    "R-10.1.3.2-17",
+    "R-10.1.3.2-08",
+    "R-10.1.3.2-15",
+    "R-11.1.2-02",
+    "R-11.1.3-01",
+    "R-11.2.1.2-07",
+    "R-11.2.3-03",
+)
 _THROUGH_CONNECTORS = ("R-10.1.2-10", "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-12")
 _EXCLUSIONS = ("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
 
@@ -138,13 +146,13 @@ for _base, _attribute, _rows in (
         "rejected",
         {
             "active_rejects_the_fourth_caller": Row(
-                "R-10.1.3.2-17",
+                "R-10.1.3.2-08",
                 "The fourth caller of an active component is refused.",
                 4,
                 (*_CALLS, *_THROUGH_CONNECTORS),
             ),
             "active_rejects_the_eighth_caller": Row(
-                "R-10.1.3.2-17",
+                "R-10.1.3.2-08",
                 "The eighth caller of an active component is refused.",
                 8,
                 (*_CALLS, *_THROUGH_CONNECTORS),
@@ -156,13 +164,13 @@ for _base, _attribute, _rows in (
         "rejected",
         {
             "protected_rejects_the_third_caller": Row(
-                "R-10.1.3.2-17",
+                "R-10.1.3.2-15",
                 "The third caller of a protected component is refused.",
                 3,
                 (*_CALLS, *_THROUGH_CONNECTORS),
             ),
             "protected_rejects_the_seventh_caller": Row(
-                "R-10.1.3.2-17",
+                "R-10.1.3.2-15",
                 "The seventh caller of a protected component is refused.",
                 7,
                 (*_CALLS, *_THROUGH_CONNECTORS),
@@ -174,7 +182,7 @@ for _base, _attribute, _rows in (
         "rejected",
         {
             "self_executing_rejects_the_third_caller": Row(
-                "R-10.1.3.2-17",
+                "R-11.2.1.2-07",
                 "The third caller of a self-executing component is refused.",
                 3,
                 (*_CALLS, *_THROUGH_CONNECTORS),
@@ -248,102 +256,7 @@ def locks_ports_after_a_failing_run(self: Base, member: Member, trigger: Trigger
             return
 
 
-# operations on several threads at once
-
-
-class _Racing(Base):
-    """Operations are carried out at once, one in another's way."""
-
-    @contextmanager
-    def _operation(self) -> Iterator[None]:
-        self._check_alive()
-        yield
-
-
-@breaks("R-11.2.2.1-03", also=("R-11.2.2.1-14", "R-11.2.2.1-06"))
-class numbers_in_a_race(_Racing):
-    """Components that are added at the same time get the same id."""
-
-    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
-        before = list(self.members)
-        identifier = super().add_component(implementation, attributes)
-        time.sleep(0.002)
-        since = [number for number in self.members if number not in before]
-        return min(since) if since else identifier
-
-
-@breaks("R-11.2.3-09", also=("R-11.2.3-15", "R-11.2.2.1-11"))
-class starts_in_a_race(_Racing):
-    """Two starts of one container at the same time both call on_startup."""
-
-
-@breaks("R-12.10-15", also=("R-11.2.1.2-06",))
-class removes_in_a_race(_Racing):
-    """Two removals of one component at the same time both return."""
-
-    def _remove(self, member: Member, failures: Failures) -> None:
-        self._leave_links(member)
-        failures.attempt(member.body.on_remove)
-        time.sleep(0.002)
-        self.members.pop(member.id, None)
-
-
-@breaks("R-12.10-16", also=("R-11.2.1.3-05",))
-class disconnects_in_a_race(_Racing):
-    """Two disconnections of one connection at the same time both return."""
-
-    def _disconnect(self, connection: Connection, failures: Failures) -> None:
-        time.sleep(0.002)
-        body = connection.client.body
-        if connection.client.implementation.connectable:
-            failures.attempt(body.on_disconnect, connection.port)  # type: ignore[attr-defined]
-        self.manager.connections.pop(connection.id, None)
-
-
-@breaks("R-11.2.2.1-09", also=("R-11.2.2.1-10", "R-12.10-16"))
-class numbers_connections_in_a_race(_Racing):
-    """Connections that are made at the same time get the same id."""
-
-    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
-        before = list(self.manager.connections)
-        identifier = super()._connect_to(member, port, target)
-        time.sleep(0.002)
-        since = [number for number in self.manager.connections if number not in before]
-        return min(since) if since else identifier
-
-
-@breaks("R-11.2.2.1-14", also=("R-12.10-22", "R-12.10-15"))
-class loses_members_in_a_race(_Racing):
-    """Of components that are added at the same time one is lost."""
-
-    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
-        before = dict(self.members)
-        identifier = super().add_component(implementation, attributes)
-        own = self.members[identifier]
-        time.sleep(0.001)
-        self.members.clear()
-        self.members.update({**before, identifier: own})
-        return identifier
-
-
-@breaks("R-12.10-11", also=("R-12.10-26",))
-class lists_in_a_race(Base):
-    """get_components raises an undeclared exception while another thread changes the container."""
-
-    def get_components(self) -> list[int]:
-        if self.manager.busy_thread not in (None, threading.get_ident()):
-            raise RuntimeError("dictionary changed size during iteration")
-        return super().get_components()
-
-
-@breaks("R-12.10-06", also=("R-11.2.2.1-07",))
-class looks_up_in_a_race(Base):
-    """get_port_element raises an undeclared exception while another thread changes the container."""
-
-    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
-        if self.manager.busy_thread not in (None, threading.get_ident()):
-            raise RuntimeError("dictionary changed size during iteration")
-        return super().get_port_element(comp_instance, port_name)
+# calls between components
 
 
 @breaks("R-11.1.3-01", also=("R-11.1.2-02", "R-11.2.3-03", "R-11.2.1.1-02", "R-11.2.1.2-07"))
@@ -415,7 +328,7 @@ class log_loses_one_of_two(_Busy):
                 super()._log(member, severity, message)
 
 
-@breaks("R-10.1.4.2-53", clauses=("10.1.4",), also=("R-10.1.4.2-47", "R-10.1.4.2-51"))
+@breaks("R-10.1.4.2-26", clauses=("10.1.4",), also=("R-10.1.4.2-53", "R-10.1.4.2-47", "R-10.1.4.2-51"))
 class log_mixes_two_texts(_Busy):
     """Messages that are logged at the same time get each other's text."""
 
@@ -478,9 +391,9 @@ class takes_one_push_at_a_time(Link):
             self.pushing -= 1
 
 
-@breaks("R-10.1.2-09", clauses=("10.1.2",), also=("R-10.1.6.1-03",))
+@breaks("R-10.1.2-09", clauses=("10.1.2",), also=("R-10.1.6.1-03",), readings={"message-overflow": "block"})
 class refuses_a_second_push(Link):
-    """Of messages that emitters push at the same time one gets internal_error."""
+    """Of messages that emitters push at the same time one gets internal_error; the vendor declares that push waits."""
 
     pushing = 0
 
@@ -526,7 +439,7 @@ class waits_for_calls_that_failed(Base):
         super()._close_entrances(member)
 
 
-@breaks("R-10.1.5.1-01", clauses=("10.1.5",), also=("R-10.1.5.1-10", "R-10.1.5.1-03"))
+@breaks("R-10.1.5.1-01", clauses=("10.1.5",), also=("R-10.1.5.1-10", "R-10.1.5.1-03", "R-10.1.1-07"))
 class closes_after_an_exception(Link):
     """After a server raised an exception, the next call of that connection is refused."""
 

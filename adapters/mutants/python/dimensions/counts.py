@@ -154,10 +154,9 @@ class component_ids_have_eight_bits(Base):
 
     def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
         identifier = super().add_component(implementation, attributes)
-        numbers: dict[int, int] = self.__dict__.setdefault("numbers", {})
-        numbers.setdefault(len(numbers) % 256 if len(numbers) < 256 else -identifier, identifier)
-        added = self.__dict__["added"] = self.__dict__.get("added", -1) + 1
-        return numbers[added % 256] if added >= 256 else identifier
+        given: list[int] = self.__dict__.setdefault("given", [])
+        given.append(identifier if len(given) < 256 else given[len(given) - 256])
+        return given[-1]
 
 
 @breaks("R-11.2.2.1-09", also=("R-11.2.2.1-10", "R-12.10-16", "R-11.2.1.3-06", "R-11.2.3-08"))
@@ -166,9 +165,9 @@ class connection_ids_have_eight_bits(Base):
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
         identifier = super().connect(instance, port_name, to_port)
-        numbers: list[int] = self.__dict__.setdefault("numbers", [])
-        numbers.append(identifier)
-        return numbers[len(numbers) - 257] if len(numbers) > 256 else identifier
+        made: list[int] = self.__dict__.setdefault("made", [])
+        made.append(identifier if len(made) < 256 else made[len(made) - 256])
+        return made[-1]
 
 
 # the third, the eighth, the 256th

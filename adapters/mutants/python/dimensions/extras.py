@@ -61,16 +61,10 @@ def gives_later_instances_a_number(self: _SetsMore, member: Member, attributes: 
     return attributes if number == 1 else {**attributes, "instance": str(number)}
 
 
-@replaces("_with_more", _ATTRIBUTES)
-def sets_defaults(_self: _SetsMore, member: Member, attributes: Mapping[str, str]) -> Mapping[str, str]:
-    """Attributes of a component that the deployment does not configure are set to nothing."""
-    return {**dict.fromkeys(member.implementation.attributes, ""), **attributes}
-
-
 # callbacks
 
 
-@breaks("R-12.10-04", also=("R-11.2.2.1-01", "R-11.1.3-02"))
+@breaks("R-12.10-04", also=("R-11.2.2.1-01", "R-11.1.3-02", "R-12.10-22"))
 class shows_everybody_the_container(Base):
     """set_container_interface is called on components, too, and its failure leaves add_component."""
 
@@ -94,7 +88,7 @@ class tells_everybody_of_connections(Base):
         return identifier
 
 
-@breaks("R-11.2.1.3-03")
+@breaks("R-11.2.1.3-03", also=("R-11.2.1.3-04",))
 class tells_of_all_ports(Base):
     """on_connect is called for all required port elements when the first one is connected."""
 
@@ -128,7 +122,7 @@ class tells_of_disconnections_at_stop(Base):
         super().stop()
 
 
-@breaks("R-11.2.1.3-03")
+@breaks("R-11.2.1.2-08", also=("R-11.2.1.3-03",))
 class tells_of_connections_at_restart(Base):
     """Members get on_connect again when their container is started again."""
 
@@ -283,17 +277,7 @@ def asks_servers_before_the_first_call(self: Link, method: str, arguments: Seque
     return Link._request(self, method, arguments)
 
 
-@breaks("R-10.1.4.2-26", clauses=("10.1.4",), also=("R-10.1.4.2-33", "R-10.1.4.2-02"))
-class log_tells_of_starts(Base):
-    """The log has a record of each start of a component that writes to it."""
-
-    def _start_up(self, member: Member, failures: Failures) -> bool:
-        if any(policy.element and "trace" in policy.definition for policy in member.implementation.policies):
-            self._write(("info", f"{member.implementation.name} is started"))
-        return super()._start_up(member, failures)
-
-
-@breaks("R-10.1.4.2-33", clauses=("10.1.4",), also=("R-10.1.4.2-26",))
+@breaks("R-10.1.4.2-32", clauses=("10.1.4",), also=("R-10.1.4.2-26", "R-10.1.4.2-33"))
 class log_tells_of_look_ups(Base):
     """get_port_element of a traced port leaves a record that names its methods."""
 
@@ -304,7 +288,7 @@ class log_tells_of_look_ups(Base):
         return element
 
 
-@breaks("R-10.1.3.2-15", clauses=POLICIES, also=("R-10.1.3.2-14", "R-11.2.1.1-02", "R-11.1.3-01"))
+@breaks("R-10.1.5.1-01", clauses=POLICIES, also=("R-10.1.3.2-15", "R-10.1.3.2-14", "R-11.2.1.1-02", "R-11.1.3-01"))
 class runs_protected_calls_again(Base):
     """A call of a protected component that raised is carried out once more."""
 

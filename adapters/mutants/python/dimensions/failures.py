@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 from ucm_cts.adapters.contract.programming_model import FragmentObject, UcmError
@@ -153,12 +154,17 @@ def _abandons(hook: str, operation: str, requirement: str) -> None:
     def call(self: Any, *arguments: Any) -> Any:
         for container in (self.manager, *self.manager.sub_containers):
             container.__dict__["abandoned"] = False
-        return getattr(super(mixin, self), operation)(*arguments)
+        if operation != "destroy":
+            return getattr(super(mixin, self), operation)(*arguments)
+        with suppress(UcmError):
+            getattr(super(mixin, self), operation)(*arguments)
+        return None
 
-    lie = f"Members that {operation} comes to after a failing {hook} get no on_remove."
+    silently = ", and destroy returns" if operation == "destroy" else ""
+    lie = f"Members that {operation} comes to after a failing {hook} get no on_remove{silently}."
     fields = {"hook": hook, operation: call, "__doc__": lie}
     mixin = type(f"abandons_{operation}_after_{hook}", (_Abandons,), fields)
-    breaks(requirement)(mixin)
+    breaks(requirement, also=("R-11.2.2.2-05",))(mixin)
 
 
 for _hook in ("on_shutdown", "on_disconnect", "on_remove"):
@@ -175,18 +181,6 @@ class stops_no_further_below_after_a_failure(NotesFailures):
             for other in self.started:
                 other.state = State.CONFIGURING
             self.started.clear()
-
-
-@breaks("R-11.2.1.3-05")
-class tells_no_others_after_a_failing_on_disconnect(NotesFailures):
-    """After a failing on_disconnect in remove_container or destroy the members that follow get none."""
-
-    def _disconnect_members(self, failures: Failures) -> None:
-        for connection in reversed(self._connections_of_members()):
-            if failures.first:
-                del self.manager.connections[connection.id]
-            else:
-                self._disconnect(connection, failures)
 
 
 class _KeepsFailed(Base):
@@ -259,38 +253,10 @@ def rolls_back_the_wrong_member(self: _RollsBack, _member: Member) -> None:
         Failures().attempt(other.body.on_remove)
 
 
-@replaces("_roll_back", "R-12.10-22")
-def starts_what_failed_next(self: _RollsBack, member: Member) -> None:
+@replaces("_roll_back", "R-11.2.1.2-10", also=("R-12.10-22",))
+def shuts_down_what_failed_to_initialise(self: _RollsBack, member: Member) -> None:
     """A body whose on_init raised gets on_shutdown at once."""
     Failures().attempt(member.body.on_shutdown)
-
-
-@breaks("R-12.10-24", also=("R-11.2.2.1-08", "R-11.2.3-08", "R-12.10-16"))
-class keeps_failed_connections(NotesFailures):
-    """A connection whose on_connect raised stands, although connect failed; the port cannot be connected."""
-
-    def _connect(self, connection: Connection) -> None:
-        try:
-            super()._connect(connection)
-        except UcmError:
-            self.manager.connections[connection.id] = connection
-            raise
-
-
-@breaks("R-11.2.3-08", also=("R-12.10-24", "R-11.2.2.1-08"))
-class cannot_reconnect_after_a_failing_on_disconnect(NotesFailures):
-    """A port whose on_disconnect raised cannot be connected any more."""
-
-    def _callback_failed(self, hook: str, member: Member) -> None:
-        if hook == "on_disconnect":
-            member.__dict__["stuck"] = True
-
-    def _is_connected(self, member: Member, port: str) -> bool:
-        return bool(member.__dict__.get("stuck")) or super()._is_connected(member, port)
-
-    def _check_startable(self) -> None:
-        if not any(member.__dict__.get("stuck") for member in self.members.values()):
-            super()._check_startable()
 
 
 @breaks("R-11.2.2.1-14", also=("R-12.10-23",))
@@ -332,23 +298,7 @@ class never_starts_after_a_failing_start(NotesFailures):
             raise UcmError("it failed before")
 
 
-@breaks("R-11.2.2.2-04")
-class keeps_containers_that_fail_to_stop(NotesFailures):
-    """remove_container whose members raise in on_shutdown removes no member."""
-
-    def _take_down(self, containers: Sequence[Container], failures: Failures) -> None:
-        if containers[0] is self.manager or self in containers:
-            super()._take_down(containers, failures)
-            return
-        for container in containers:
-            container._shut_down_started(failures)
-        if failures.first:
-            containers[0].is_removed = True
-            return
-        super()._take_down(containers, failures)
-
-
-@breaks("R-11.2.2.2-02", also=("R-11.1.3-03",))
+@breaks("R-11.1.3-03", also=("R-11.2.2.2-02",))
 class makes_no_containers_after_a_failed_removal(Base):
     """After remove_container has failed, create_container is refused."""
 

@@ -224,7 +224,10 @@ class serves_elements_of_the_predecessor(Base):
         super()._remove(member, failures)
 
 
-@breaks("R-11.2.1.2-03", also=("R-11.2.3-14", "R-11.2.1.3-04", "R-11.2.3-10"))
+@breaks(
+    "R-11.2.3-14",
+    also=("R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.1.3-04", "R-11.2.3-10", "R-11.2.2.1-10", "R-11.1.3-01"),
+)
 class reconnects_to_the_predecessor(Base):
     """A port that is connected again is connected to what it was connected to first."""
 

@@ -302,8 +302,12 @@ _WRONG: dict[type[_Defect], tuple[str, str, tuple[str, ...]]] = {
     StopsInOrder: ("stop goes in the order of start", "R-11.2.2.1-13", ()),
     ConnectsSilently: ("there is no on_connect", "R-11.2.1.3-02", ()),
     DisconnectsSilently: ("there is no on_disconnect", "R-11.2.1.3-05", ()),
-    InitialisesNothing: ("there is no on_init", "R-11.2.3-05", (*_FRAGMENTS, "R-12.10-22", "R-11.2.1.2-05")),
-    ConfiguresNothing: ("attributes are not set", "R-11.2.1.2-05", ()),
+    InitialisesNothing: (
+        "there is no on_init",
+        "R-11.2.3-05",
+        (*_FRAGMENTS, "R-12.10-22", "R-11.2.1.2-05", "R-11.2.1.2-01"),
+    ),
+    ConfiguresNothing: ("attributes are not set", "R-11.2.1.2-05", ("R-10.1.1-06",)),
     RemovesSilently: ("there is no on_remove", "R-11.2.1.2-06", ("R-11.2.2.2-04", "R-11.2.2.2-05")),
     LosesTheLastConnection: ("on_startup leaves out a connection", "R-11.2.1.2-09", ("R-11.2.3-10", "R-12.10-25")),
     HidesTheContainer: ("fragments are not given their container", "R-11.2.1.4-02", ("R-11.2.1.4-03",)),
@@ -342,7 +346,6 @@ _CELLS: dict[Situation, dict[str, type[_Defect]]] = {
     after_two_phases: {
         "stops_one_less_after_two_phases": StopsOneLess,
         "loses_a_connection_after_two_phases": LosesTheLastConnection,
-        "starts_nothing_after_two_phases": RefusesToStart,
     },
     after_a_refusal: {
         "adds_nothing_after_a_refusal": RefusesToAdd,
@@ -406,7 +409,6 @@ _CELLS: dict[Situation, dict[str, type[_Defect]]] = {
     beside_a_running_container: {
         "starts_one_less_beside_a_running_container": LeavesOneOut,
         "stops_one_less_beside_a_running_container": StopsOneLess,
-        "configures_nothing_beside_a_running_container": ConfiguresNothing,
         "finds_nothing_beside_a_running_container": FindsNoElements,
         "shuts_others_down_beside_a_running_container": CallsAnother,
     },

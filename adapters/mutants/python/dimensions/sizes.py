@@ -47,11 +47,6 @@ family(
             "From the 4,097th character on attribute values repeat their beginning.",
             lambda v: v[:4096] + v[: len(v) - 4096] if len(v) > 4096 else v,
         ),
-        "attributes_are_ascii": Row(
-            _SET,
-            "In attribute values characters beyond ASCII become question marks.",
-            lambda v: v.encode("ascii", "replace").decode(),
-        ),
         "attributes_are_one_line": Row(_SET, "Attribute values end at a line end.", lambda v: v.partition("\n")[0]),
         "attributes_are_stripped": Row(_SET, "Attribute values lose blanks at their ends.", str.strip),
         "attributes_are_quoted": Row(
