@@ -15,7 +15,7 @@ from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
 from ucm_cts.harness.purposes.provocations.dimensions import Cell
 
 _GATE, _SECOND = "inside", "second box"
-_SERVER, _SUBJECT, _NEIGHBOUR, _OTHER = "server", "subject", "neighbour", "other"
+_SERVER, _SUBJECT, _NEIGHBOUR, _OTHER, _TWIN = "server", "subject", "neighbour", "other", "twin"
 _PATIENCE = 2000
 _CYCLE, _RUNNING, _JOINED = "started and stopped", "started", "connected"
 _PASTS: dict[str, frozenset[str]] = {
@@ -137,8 +137,8 @@ class Application:
     def _add(self, name: str) -> Step:
         return s.AddComponent(name, self.home)
 
-    def _look_up(self, name: str) -> Step:
-        return s.GetPortElement(name, "in.api", _reference(name), self.home)
+    def _look_up(self, name: str, home: str = "") -> Step:
+        return s.GetPortElement(name, "in.api", _reference(name), home or self.home)
 
     def _connect(self, client: str, number: int = 1) -> tuple[Step, ...]:
         bind = _link(client) if number == 1 else f"{_link(client)} {number}"
@@ -205,13 +205,15 @@ class Application:
                 return (s.Stop(home), s.Start(home))
 
     def _another(self, home: str) -> tuple[Step, ...]:
-        """A sound component of the subject's kind is added, connected and used."""
+        """Two sound components are added, connected to each other and used."""
+        pair = (_OTHER, _TWIN)
         return (
-            s.AddComponent(_OTHER, home),
-            s.GetPortElement(_OTHER, "in.api", _reference(_OTHER), home),
-            s.Connect(_OTHER, "out.api", _reference(_OTHER), _link(_OTHER), home),
+            *(s.AddComponent(_OTHER, home, name) for name in pair),
+            *(self._look_up(name, home) for name in pair),
+            s.Connect(_OTHER, "out.api", _reference(_TWIN), _link(_OTHER), home),
+            s.Connect(_TWIN, "out.api", _reference(_OTHER), _link(_TWIN), home),
             s.Start(home),
-            s.Invoke(_reference(_OTHER), 5),
+            *(s.Invoke(_reference(name), 5 + number) for number, name in enumerate(pair)),
             s.Stop(home),
         )
 

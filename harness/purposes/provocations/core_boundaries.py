@@ -128,8 +128,13 @@ def _receivers(count: int) -> Scenario:
 def _leaving_receivers(count: int) -> Scenario:
     """Before the second start the first receiver is detached; the others get what is pushed then."""
     first = "receiver 0"
-    again = (s.Detach("line", first, "in.api"), s.RemoveComponent(first), s.Start(), s.Invoke("to emitter 0", 2))
-    arrivals = tuple(s.ReachGate(f"at receiver {number}", total=2) for number in range(1, count))
+    again: tuple[Step, ...] = (
+        s.Detach("line", first, "in.api"),
+        s.RemoveComponent(first),
+        s.Start(),
+        s.Invoke("to emitter 0", 2),
+    )
+    arrivals: tuple[Step, ...] = tuple(s.ReachGate(f"at receiver {number}", total=2) for number in range(1, count))
     return _with_messages(1, count, (*again, *arrivals, s.Stop()))
 
 
@@ -148,8 +153,10 @@ def _with_messages(emitters: int, receivers: int, afterwards: tuple[Step, ...] =
         components[name] = _user(s.CallMethod("out.api", s.PUSH, (number + 1,)), "numbers")
         steps += [s.AddComponent(name), required_end(MESSAGE, "line", name)]
         steps.append(s.GetPortElement(name, "in.api", f"to {name}"))
-    calls = (s.Start(), *(s.Invoke(f"to emitter {number}", number + 1) for number in range(emitters)))
-    arrivals = tuple(s.ReachGate(f"at receiver {number}", total=emitters) for number in range(receivers))
+    calls: tuple[Step, ...] = (s.Start(), *(s.Invoke(f"to emitter {number}", number + 1) for number in range(emitters)))
+    arrivals: tuple[Step, ...] = tuple(
+        s.ReachGate(f"at receiver {number}", total=emitters) for number in range(receivers)
+    )
     interfaces = {"numbers": message_interface(_NUMBER)}
     return Scenario(components, (*steps, *calls, *arrivals, s.Stop(), *afterwards), interfaces=interfaces)
 

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterable
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Declaration, Scenario
+from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
 from ucm_cts.harness.purposes.provocations.application import Application
 from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
 from ucm_cts.harness.purposes.provocations.dimensions import Cell, load_cells, load_dimensions
@@ -48,7 +48,7 @@ def _slow_peer(milliseconds: int) -> Scenario:
         "server": Declaration(("in.api",), plan={"exchange": (s.HoldAtGate("inside"),)}),
         "client": Declaration(("in.api",), ("out.api",), plan={"exchange": (s.CallPort("out.api", 7),)}),
     }
-    steps = (
+    steps: tuple[Step, ...] = (
         *(s.AddComponent(name) for name in components),
         *(s.GetPortElement(name, "in.api", f"to {name}") for name in components),
         s.Connect("client", "out.api", "to server", "link"),

@@ -164,7 +164,7 @@ def _abandons(hook: str, operation: str, requirement: str) -> None:
     lie = f"Members that {operation} comes to after a failing {hook} get no on_remove{silently}."
     fields = {"hook": hook, operation: call, "__doc__": lie}
     mixin = type(f"abandons_{operation}_after_{hook}", (_Abandons,), fields)
-    breaks(requirement, also=("R-11.2.2.2-05",))(mixin)
+    breaks(requirement, also=("R-11.2.2.2-04", "R-11.2.2.2-05"))(mixin)
 
 
 for _hook in ("on_shutdown", "on_disconnect", "on_remove"):

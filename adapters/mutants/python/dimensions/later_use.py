@@ -177,7 +177,7 @@ class servers_of_removed_clients_stay_in_use(Base):
             raise UcmError("in use")
 
 
-@breaks("R-11.2.1.2-09", also=("R-11.2.3-07", "R-11.2.3-14", "R-11.2.3-06"))
+@breaks("R-12.10-25", also=("R-11.2.1.2-09", "R-11.2.3-07", "R-11.2.3-14", "R-11.2.3-06"))
 class successors_inherit_connections(Base):
     """A component gets the connections of a removed one of its implementation at start, beside its own."""
 

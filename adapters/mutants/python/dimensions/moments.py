@@ -132,28 +132,6 @@ class stops_twice_if_slow(Base):
 # business calls that take their time, or come back
 
 
-@breaks("R-11.1.3-01", also=("R-11.1.2-02", "R-11.2.3-03"))
-class answers_for_slow_peers(PeerProxy):
-    """A call between components that takes more than 50 ms is answered with 0."""
-
-    def exchange(self, value: int) -> int:
-        results: list[int] = []
-        raised: list[Exception] = []
-
-        def ask() -> None:
-            try:
-                results.append(self.target.exchange(value))
-            except Exception as error:  # noqa: BLE001 - the caller gets any exception
-                raised.append(error)
-
-        asking = threading.Thread(target=ask, daemon=True)
-        asking.start()
-        asking.join(0.05)
-        if raised:
-            raise raised[0]
-        return results[0] if results else 0
-
-
 class _Deep(PeerProxy):
     here = threading.local()
     depth = 2

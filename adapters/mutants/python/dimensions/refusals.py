@@ -290,7 +290,7 @@ class unknown_removal_hits_the_last(Base):
         super().remove_component(comp_instance)
 
 
-@breaks("R-11.1.3-03", also=("R-11.2.2.2-02",))
+@breaks("R-11.2.2.2-02", also=("R-11.1.3-03",))
 class refused_removal_of_nothing_ends_creation(Base):
     """After remove_container of nothing, create_container is refused."""
 
@@ -363,7 +363,7 @@ class asks_once_for_unknown_names(Base):
         return super().get_port_element(comp_instance, port_name)
 
 
-@breaks("R-11.2.1.2-09", also=("R-11.2.3-10",))
+@breaks("R-11.2.3-10", also=("R-11.2.1.2-09",))
 class early_look_up_spoils_the_start(Base):
     """A component of a sub-container whose required port element was asked for is given nothing at start."""
 

@@ -271,6 +271,10 @@ class MakesNoContainers(_Refuses):
         return ContainerManager.create_container(self.manager)
 
 
+class MakesNoFirstContainer(MakesNoContainers):
+    """create_container is refused, and there is no sub-container."""
+
+
 class RemovesNoContainers(_Refuses):
     """remove_container is refused."""
 
@@ -323,6 +327,7 @@ _WRONG: dict[type[_Defect], tuple[str, str, tuple[str, ...]]] = {
     RefusesToRemove: ("remove_component is refused", "R-11.2.2.1-05", ()),
     FindsNoElements: ("get_port_element finds nothing", "R-11.2.2.1-07", ()),
     MakesNoContainers: ("create_container is refused", "R-11.1.3-03", ("R-11.2.2.2-02",)),
+    MakesNoFirstContainer: ("create_container is refused", "R-11.2.2.2-02", ("R-11.1.3-03",)),
     RemovesNoContainers: ("remove_container is refused", "R-11.2.2.2-03", ()),
     CallsAnother: ("start shuts members of other containers down", "R-11.1.3-04", ("R-11.2.1.2-10",)),
 }
@@ -341,7 +346,7 @@ _CELLS: dict[Situation, dict[str, type[_Defect]]] = {
         "adds_nothing_after_a_phase": RefusesToAdd,
         "disconnects_nothing_after_a_phase": RefusesToDisconnect,
         "finds_nothing_after_a_phase": FindsNoElements,
-        "makes_no_containers_after_a_phase": MakesNoContainers,
+        "makes_no_containers_after_a_phase": MakesNoFirstContainer,
     },
     after_two_phases: {
         "stops_one_less_after_two_phases": StopsOneLess,
@@ -359,7 +364,7 @@ _CELLS: dict[Situation, dict[str, type[_Defect]]] = {
         "removes_silently_after_a_refusal": RemovesSilently,
         "connects_silently_after_a_refusal": ConnectsSilently,
         "loses_a_connection_after_a_refusal": LosesTheLastConnection,
-        "makes_no_containers_after_a_refusal": MakesNoContainers,
+        "makes_no_containers_after_a_refusal": MakesNoFirstContainer,
         "stops_in_order_after_a_refusal": StopsInOrder,
     },
     after_a_failure: {
