@@ -238,7 +238,9 @@ def rolls_back_two_members(self: _RollsBack, _member: Member) -> None:
 
 
 @replaces(
-    "_roll_back", "R-11.2.3-06", also=("R-11.2.2.1-10", "R-11.2.1.3-05", "R-11.2.3-10", "R-12.10-16", "R-12.10-24")
+    "_roll_back",
+    "R-11.2.1.3-05",
+    also=("R-11.2.3-06", "R-11.2.2.1-10", "R-11.2.3-10", "R-12.10-16", "R-12.10-24"),
 )
 def rolls_back_connections(self: _RollsBack, _member: Member) -> None:
     """After a failing on_init the connections of all other members are lost."""
