@@ -14,8 +14,8 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
 from ucm_cts.harness.purposes.provocations.dimensions import Cell
 
-_GATE = "inside"
-_SERVER, _SUBJECT, _NEIGHBOUR, _OTHER = "server", "subject", "neighbour", "other"
+_GATE, _SECOND = "inside", "second box"
+_SERVER, _SUBJECT, _NEIGHBOUR, _OTHER, _TWIN = "server", "subject", "neighbour", "other", "twin"
 _PATIENCE = 2000
 _CYCLE, _RUNNING, _JOINED = "started and stopped", "started", "connected"
 _PASTS: dict[str, frozenset[str]] = {
@@ -35,10 +35,11 @@ _PATIENCE = 2000
 
 
 class Application:
-    """The application of one ``cell``."""
+    """The application of one ``cell``. What is held goes on after ``pause`` milliseconds, or at once."""
 
-    def __init__(self, cell: Cell) -> None:
+    def __init__(self, cell: Cell, pause: int = 0) -> None:
         self.cell = cell
+        self.pause = pause
         self.home = "box" if cell.place == "box" else s.MANAGER
         plan = {cell.entrance.hook: cell.action.plan} if cell.entrance.hook else {}
         sound = Declaration(("in.api",), ("out.api",), {"size": "12"}, True, cell.kind == "fragment")
@@ -77,6 +78,8 @@ class Application:
             yield s.Start(home)
         if by == "invoke":
             yield self._look_up(_SUBJECT)
+        if self.cell.entrance.step is not None and _JOINED not in past:
+            yield self._look_up(_SERVER)
 
     @property
     def early(self) -> list[str]:
@@ -97,7 +100,14 @@ class Application:
             return self._operation(number)
         worker = f"operator {number}"
         operation = tuple(msgspec.structs.replace(step, thread=worker) for step in self._operation(number))
-        return (*operation, s.Settle(worker), s.OpenGate(_GATE), s.Join(worker))
+        pause = (s.Pause(self.pause),) if self.pause else ()
+        return (
+            *operation,
+            s.ReachGate(_GATE) if pause else s.Settle(worker),
+            *pause,
+            s.OpenGate(_GATE),
+            s.Join(worker),
+        )
 
     def _operation(self, number: int) -> tuple[Step, ...]:
         refused = self.cell.entrance.step
@@ -127,8 +137,8 @@ class Application:
     def _add(self, name: str) -> Step:
         return s.AddComponent(name, self.home)
 
-    def _look_up(self, name: str) -> Step:
-        return s.GetPortElement(name, "in.api", _reference(name), self.home)
+    def _look_up(self, name: str, home: str = "") -> Step:
+        return s.GetPortElement(name, "in.api", _reference(name), home or self.home)
 
     def _connect(self, client: str, number: int = 1) -> tuple[Step, ...]:
         bind = _link(client) if number == 1 else f"{_link(client)} {number}"
@@ -150,6 +160,12 @@ class Application:
                 return (*self._undone(), *self._operation(2), s.GetComponents(home))
             case "start and stop":
                 return (s.Start(home), s.Stop(home), s.Start(home), s.Stop(home), s.GetComponents(home))
+            case "complete it":
+                links = tuple(step for name in self.order if name != _SERVER for step in self._connect(name, 3))
+                calls = tuple(s.Invoke(_reference(name), number) for number, name in enumerate(self.order))
+                return (*links, s.Start(home), *map(self._look_up, self.order), *calls, s.Stop(home))
+            case "another container":
+                return (s.CreateContainer(_SECOND), *self._another(_SECOND), s.RemoveContainer(_SECOND))
             case "use all":
                 calls = tuple(s.Invoke(_reference(name), number) for number, name in enumerate(self.order))
                 return (s.Start(home), *map(self._look_up, self.order), *calls, s.Stop(home))
@@ -189,13 +205,15 @@ class Application:
                 return (s.Stop(home), s.Start(home))
 
     def _another(self, home: str) -> tuple[Step, ...]:
-        """A sound component of the subject's kind is added, connected and used."""
+        """Two sound components are added, connected to each other and used."""
+        pair = (_OTHER, _TWIN)
         return (
-            s.AddComponent(_OTHER, home),
-            s.GetPortElement(_OTHER, "in.api", _reference(_OTHER), home),
-            s.Connect(_OTHER, "out.api", _reference(_OTHER), _link(_OTHER), home),
+            *(s.AddComponent(_OTHER, home, name) for name in pair),
+            *(self._look_up(name, home) for name in pair),
+            s.Connect(_OTHER, "out.api", _reference(_TWIN), _link(_OTHER), home),
+            s.Connect(_TWIN, "out.api", _reference(_OTHER), _link(_TWIN), home),
             s.Start(home),
-            s.Invoke(_reference(_OTHER), 5),
+            *(s.Invoke(_reference(name), 5 + number) for number, name in enumerate(pair)),
             s.Stop(home),
         )
 
@@ -203,9 +221,10 @@ class Application:
         """The sub-container has been removed, or its removal has failed: the rest of the runtime is used."""
         match self.cell.aftermath:
             case "the same again":
-                return (s.RemoveContainer(self.home), s.GetComponents())
+                again = s.RemoveContainer(self.home)
+                return (again, again, *self._another(s.MANAGER), s.GetComponents())
             case "undo and redo":
-                return (s.CreateContainer("second box"), *self._another("second box"), s.RemoveContainer("second box"))
+                return (s.CreateContainer(_SECOND), *self._another(_SECOND), s.RemoveContainer(_SECOND))
             case "start and stop":
                 return (s.Start(), s.Stop(), s.GetComponents())
             case "destroy":

@@ -12,6 +12,9 @@ from ucm_cts.harness.catalogue.documents import read
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
+_DEEPEST = 16
+"""The longest chain of calls: stacks end somewhere."""
+
 _SERVER = Declaration(("in.api",))
 _CLIENT = Declaration(("in.api",), ("out.api",), connectable=True, plan={"exchange": (s.CallPort("out.api", 7),)})
 
@@ -21,15 +24,26 @@ class Boundaries(Value, frozen=True):
 
     ``counts``: how many of each thing.
     ``sizes``: characters of attribute values.
+    ``texts``: attribute values with characters that some formats treat in their own way.
+    ``callers``: how many callers at once, beside the pairs and triples of every kind.
+    ``durations``: milliseconds that a body stays in a callback.
     """
 
     counts: tuple[int, ...]
     sizes: tuple[int, ...]
+    texts: tuple[str, ...]
+    callers: tuple[int, ...]
+    durations: tuple[int, ...]
+
+
+def load_boundaries() -> Boundaries:
+    """The boundaries of the suite."""
+    return read(SUITE / "boundaries.yaml", Boundaries)
 
 
 def boundary_purposes() -> list[TestPurpose]:
     """One purpose for each thing that is counted, and one for attribute values."""
-    boundaries = read(SUITE / "boundaries.yaml", Boundaries)
+    boundaries = load_boundaries()
     purposes = [
         TestPurpose(
             f"boundary/{what}",
@@ -41,6 +55,7 @@ def boundary_purposes() -> list[TestPurpose]:
         for what, (steps, requirements) in _COUNTED.items()
     ]
     sizes = tuple((f"boundary/attribute of {size} characters", _sized(size)) for size in boundaries.sizes)
+    sizes += tuple((f"boundary/attribute {text!r}", _with_value(text)) for text in boundaries.texts)
     text = "The value of an attribute has characters without number: none, one, and so many that buffers end."
     return [*purposes, TestPurpose("boundary/attribute values", "11.2.1.2", text, ("R-11.2.1.2-05",), sizes)]
 
@@ -137,6 +152,39 @@ def _references(count: int) -> Iterator[Step]:
     yield s.Stop()
 
 
+def _ended(count: int) -> Iterator[Step]:
+    """So many members of a sub-container are removed with it, and as many of the manager with the runtime, while they run."""
+    yield s.CreateContainer("box")
+    for container in ("box", s.MANAGER):
+        yield from (s.AddComponent("server", container, f"{container} {number}") for number in range(count))
+        yield s.Start(container)
+    yield s.RemoveContainer("box")
+    yield s.Destroy()
+
+
+def _links_of_a_chain(count: int) -> Iterator[Step]:
+    """So many components that call each the next one; the test calls the first."""
+    names = [f"client {number}" for number in range(min(count, _DEEPEST))]
+    yield s.AddComponent("server")
+    yield s.GetPortElement("server", "in.api", "to next 0")
+    for number, name in enumerate(names):
+        yield s.AddComponent("client", bind=name)
+        yield s.Connect(name, "out.api", f"to next {number}", f"link of {name}")
+        yield s.GetPortElement(name, "in.api", f"to next {number + 1}")
+    yield s.Start()
+    yield s.Invoke(f"to next {len(names)}", 1)
+    yield s.Stop()
+
+
+def _calls(count: int) -> Iterator[Step]:
+    """A component calls another one so many times."""
+    yield from _pair()
+    yield s.GetPortElement("client", "in.api", "to client")
+    yield s.Start()
+    yield from (s.Invoke("to client", number) for number in range(count))
+    yield s.Stop()
+
+
 def _pair() -> Iterator[Step]:
     yield from (s.AddComponent("server"), s.AddComponent("client"), s.GetPortElement("server", "in.api", "to server"))
     yield s.Connect("client", "out.api", "to server", _link(0))
@@ -148,6 +196,10 @@ def _link(number: int) -> str:
 
 def _sized(size: int) -> Scenario:
     value = "".join(chr(ord("a") + number % 26) for number in range(size))
+    return _with_value(value)
+
+
+def _with_value(value: str) -> Scenario:
     return Scenario({"server": Declaration(attributes={"name": value})}, (s.AddComponent("server"), s.GetComponents()))
 
 
@@ -158,5 +210,8 @@ _COUNTED: dict[str, tuple[Callable[[int], Iterator[Step]], tuple[str, ...]]] = {
     "restarts": (_restarts, ("R-11.2.3-09", "R-11.2.3-10")),
     "new connections": (_reconnections, ("R-12.10-08",)),
     "replacements": (_replacements, ("R-12.10-05",)),
+    "members at the end": (_ended, ("R-11.2.2.2-04", "R-11.2.2.2-05")),
+    "components in a chain": (_links_of_a_chain, ("R-11.2.3-03", "R-11.1.3-01")),
+    "calls of a component": (_calls, ("R-11.1.3-01",)),
     "references": (_references, ("R-12.10-06",)),
 }

@@ -131,13 +131,13 @@ class Dimensions(Value, frozen=True):
         refusals = (Entrance(r.name, past, r.exercises, step=r.step) for r in self.refusals for past in r.after)
         return {entrance.name: entrance for entrance in (*self.entrances, *refusals)}
 
-    def why_never(self, hook: Hook, by: str, action: str) -> str:
-        """The reason why no body does ``action`` in ``hook`` when ``by`` leads there; empty if one may."""
-        return next((excluded.reason for excluded in self.excluded if excluded.holds_always(hook, by, action)), "")
-
     def why_empty(self, cell: Cell) -> str:
         """The reason why there is no scenario for ``cell``; empty if there may be one."""
         return next((excluded.reason for excluded in self.excluded if excluded.holds(cell)), "")
+
+    def why_never(self, hook: Hook, by: str, action: str) -> str:
+        """The reason why no body does ``action`` in ``hook`` when ``by`` leads there; empty if one may."""
+        return next((excluded.reason for excluded in self.excluded if excluded.holds_always(hook, by, action)), "")
 
 
 @functools.cache

@@ -12,7 +12,7 @@ from ucm_cts.harness.catalogue.documents import read
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
-_BOX = "box"
+_BOX, _NEW, _ROOT = "box", "new box", "root"
 _REQUIREMENTS = ("R-12.10-05", "R-12.10-06", "R-12.10-07", "R-12.10-08")
 _COMPONENTS = {
     "server": Declaration(("in.api",)),
@@ -53,7 +53,7 @@ def later_use_purposes() -> list[TestPurpose]:
                 (f"later use/{name}/{use} in the {home}", _scenario(home, (*since, *steps)))
                 for use, steps in dimensions.uses.items()
                 for home in (s.MANAGER, _BOX)
-                if home == _BOX or not _needs_box((*since, *steps))
+                if (home == _BOX or not _needs_box((*since, *steps))) and _has_all((*since, *steps))
             ),
         )
         for name, since in dimensions.since.items()
@@ -62,6 +62,12 @@ def later_use_purposes() -> list[TestPurpose]:
 
 def _needs_box(steps: tuple[Step, ...]) -> bool:
     return any(_BOX in used_by(step) for step in steps)
+
+
+def _has_all(steps: tuple[Step, ...]) -> bool:
+    """Is a second sub-container used only if it has been created?"""
+    created = any(isinstance(step, s.CreateContainer) for step in steps)
+    return created or not any(_NEW in used_by(step) or getattr(step, "container", "") == _NEW for step in steps)
 
 
 def _scenario(home: str, steps: tuple[Step, ...]) -> Scenario:
@@ -73,4 +79,7 @@ def _scenario(home: str, steps: tuple[Step, ...]) -> Scenario:
 def _within(home: str, step: Step) -> Step:
     if isinstance(step, s.RemoveContainer) or "container" not in step.__struct_fields__:
         return step
-    return msgspec.structs.replace(step, container=home)
+    named = step.container  # type: ignore[union-attr]
+    if named not in (s.MANAGER, _ROOT):
+        return step
+    return msgspec.structs.replace(step, container=s.MANAGER if named == _ROOT else home)
