@@ -82,6 +82,7 @@ def test_the_verdict_comes_before_the_fixes(page: Any) -> None:
         "What to fix first",
         "Incidents",
         "Life cycle",
+        "Provocations",
         "Requirements",
         "Not testable from the outside",
         "Statement (ICS and IXIT)",
