@@ -1,5 +1,6 @@
-"""Properties about what follows a failure: the text leaves open how far an operation came in which a body raised, and not that
-sound members are left behind (11.2.2, callback-failure).
+"""Properties about what follows a failure (11.2.2, callback-failure).
+
+The text leaves open how far an operation came in which a body raised, and not that sound members are left behind.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Chooses the cells of ``suite/provocations.yaml`` that have scenarios, by covering arrays; run it after each change of that file:
+"""Chooses the cells of ``suite/provocations.yaml`` that have scenarios, by covering arrays.
+
+Run it after each change of that file:
 
 python -m ucm_cts.harness.purposes.provocations.covering > suite/provocations_covering.json
 """
