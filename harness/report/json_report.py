@@ -117,7 +117,10 @@ class StatementEntry(Entry, frozen=True):
 
 
 class ReportEntry(Entry, frozen=True):
-    """The whole of ``report.json``."""
+    """The whole of ``report.json``.
+
+    ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are what its vendor should know of it.
+    """
 
     product: str
     version: str
@@ -138,6 +141,8 @@ class ReportEntry(Entry, frozen=True):
     measures: dict[str, int]
     seconds_by_clause: dict[str, float]
     runs: int
+    adapter_file: str = ""
+    warnings: tuple[str, ...] = ()
 
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:

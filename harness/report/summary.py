@@ -37,6 +37,7 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
             f"  {name}, profile {one_line(report.profile, 40)}",
         ),
         _counts(report),
+        *(Text(f"  warning: {one_line(warning, 600)}", "yellow") for warning in getattr(report, "warnings", ())),
     ]
     failed = to_fix(report.requirements)
     for result in failed[:SHOWN]:

@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+import itertools
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.trace import MOST
+
+T = TypeVar("T")
+
+
+class TooMany(ValueError):
+    """More than an event may hold."""
+
+
+def at_most(values: Iterable[T]) -> tuple[T, ...]:
+    """``values``, which may come without end. Raises ``TooMany``, and ``TypeError`` if they are no iterable."""
+    taken = tuple(itertools.islice(values, MOST + 1))
+    if len(taken) > MOST:
+        raise TooMany(f"more than {MOST}")
+    return taken
 
 
 def is_datum(value: object) -> bool:

@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
 from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
-from ucm_cts.adapters.sdk.python.data import is_datum, overwrite, snapshot
+from ucm_cts.adapters.sdk.python.data import TooMany, at_most, is_datum, overwrite, snapshot
 from ucm_cts.adapters.sdk.python.gates import Gates
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
@@ -297,7 +297,10 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         try:
             if self._container is None:
                 raise LookupError("no container interface was given")
-            members = tuple(self._container.get_components())
+            members = at_most(self._container.get_components())
+        except TooMany as many:
+            self.stage.recorder.complain(f"get_components of the container interface returned {many} ids")
+            return
         except Exception:  # noqa: BLE001 - the framework may raise anything
             self._record(t.Siblings, raised=True)
             return
@@ -312,7 +315,10 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self, dependencies: Sequence[pm.PortConnection]
     ) -> list[tuple[str, tuple[pm.PortElementObject | None, ...]]]:
         try:
-            given = [(connection.from_port, tuple(connection.to_port)) for connection in dependencies]
+            given = [(connection.from_port, at_most(connection.to_port)) for connection in at_most(dependencies)]
+        except TooMany as many:
+            self.stage.recorder.complain(f"on_startup was given {many} connections")
+            return []
         except (TypeError, AttributeError) as error:
             self.stage.recorder.complain(f"on_startup takes a sequence of PortConnection values ({error})")
             return []

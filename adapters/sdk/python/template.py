@@ -1,9 +1,12 @@
 """Template: a process that has loaded the adapter and forks a new host on request.
 
 Control protocol, one line each over a Unix socket. To the template: ``fork`` together with three descriptors (the
-host's input, output and standard error), and ``kill PID SIGNAL``. From it: ``ready`` once, or ``failed`` and a JSON
-string saying why; ``forked PID``; and ``ended PID STATUS`` (as of ``os.waitstatus_to_exitcode``: negative for a
-signal). Each host leads a process group, which is killed when the host ends; all are killed when the socket closes.
+host's input, output and standard error), and ``kill PID SIGNAL``. From it: ``ready`` once and a JSON string, the file that
+it has loaded, or ``failed`` and a JSON string saying why; ``forked PID``; and ``ended PID STATUS STRAYS`` (as of
+``os.waitstatus_to_exitcode``: negative for a signal; a JSON list with the command line of each process that the host left behind).
+
+Each host leads a process group. What a host leaves behind is killed when it ends, also in other groups and sessions: on Linux
+the template adopts it. All are killed when the socket closes.
 """
 
 from __future__ import annotations
@@ -22,6 +25,13 @@ from contextlib import suppress
 from typing import NoReturn
 
 _DIE_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
+_ADOPT_ORPHANS = 36  # PR_SET_CHILD_SUBREAPER of Linux
+
+_ROUNDS = 50
+"""How many times strays are searched for, because those that are killed may have children, which the template adopts."""
+
+_LONGEST_NAME = 80
+_MOST_NAMES = 20
 
 BecomeHost = Callable[[int, int], NoReturn]
 """Turns a forked process into a host, given the descriptors to read from and to write to."""
@@ -36,14 +46,20 @@ def refuse(control: socket.socket, reason: str) -> NoReturn:
 class Template:
     """Serves ``control`` until the harness closes it. ``become_host`` runs in each forked process and never returns."""
 
-    def __init__(self, control: socket.socket, become_host: BecomeHost) -> None:
+    def __init__(self, control: socket.socket, become_host: BecomeHost, file: str = "") -> None:
+        """``file`` is the one that was loaded."""
         self._control = control
         self._become_host = become_host
+        self._file = file
         self._hosts: set[int] = set()
+        self._helpers: frozenset[int] = frozenset()
         self._process_control = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
 
     def serve(self) -> None:
         """Fork hosts on request and report their ends."""
+        if self._process_control is not None:
+            self._process_control(_ADOPT_ORPHANS, 1, 0, 0, 0)
+        self._helpers = frozenset(_children())  # what the adapter started when it was loaded serves all hosts
         wake, woken = os.pipe()
         os.set_blocking(woken, False)
         os.set_blocking(wake, False)
@@ -55,7 +71,7 @@ class Template:
         with selectors.DefaultSelector() as selector:
             selector.register(self._control, selectors.EVENT_READ)
             selector.register(wake, selectors.EVENT_READ)
-            self._control.sendall(b"ready\n")
+            self._control.sendall(b"ready %s\n" % json.dumps(self._file).encode())
             try:
                 while True:
                     ready = {key.fileobj for key, _ in selector.select()}
@@ -68,6 +84,9 @@ class Template:
             finally:
                 for host in self._hosts:
                     _kill_group(host)
+                self._hosts.clear()
+                self._helpers = frozenset()
+                self._end_strays()
 
     def _obey(self) -> bool:
         text, descriptors, _, _ = socket.recv_fds(self._control, 4096, 3)
@@ -110,10 +129,53 @@ class Template:
     def _report_ended(self) -> None:
         for host in tuple(self._hosts):
             if os.waitid(os.P_PID, host, os.WEXITED | os.WNOHANG | os.WNOWAIT):
+                names = {number: name for number, name in self._strays().items() if name}
                 _kill_group(host)  # before its number is free again
                 _, status = os.waitpid(host, 0)
                 self._hosts.remove(host)
-                self._control.sendall(b"ended %d %d\n" % (host, os.waitstatus_to_exitcode(status)))
+                names = {**self._end_strays(), **names}
+                shown = json.dumps(list(names.values())[:_MOST_NAMES]).encode()
+                self._control.sendall(b"ended %d %d %s\n" % (host, os.waitstatus_to_exitcode(status), shown))
+
+    def _strays(self) -> dict[int, str]:
+        """The command lines of processes that hosts have left behind, by their numbers."""
+        return {number: _command_line(number) for number in _children() if number not in self._hosts | self._helpers}
+
+    def _end_strays(self) -> dict[int, str]:
+        """Kill them, and what they leave behind in their turn; returns them."""
+        ended: dict[int, str] = {}
+        for _ in range(_ROUNDS):
+            strays = self._strays()
+            if not strays:
+                break
+            for number, name in strays.items():
+                if name:
+                    ended.setdefault(number, name)
+                with suppress(OSError):
+                    os.kill(number, signal.SIGKILL)
+                with suppress(OSError):
+                    os.waitpid(number, 0)
+        return ended
+
+
+def _children() -> list[int]:
+    """The children of this process; none where the system does not list them."""
+    found: list[int] = []
+    with suppress(OSError):
+        for task in os.listdir("/proc/self/task"):
+            with suppress(OSError), open(f"/proc/self/task/{task}/children", "rb") as stream:
+                found.extend(map(int, stream.read().split()))
+    return found
+
+
+def _command_line(number: int) -> str:
+    """The command line of a process, shortened; empty if it has ended by itself."""
+    with suppress(OSError), open(f"/proc/{number}/cmdline", "rb") as stream, open("/proc/self/cmdline", "rb") as own:
+        line = stream.read(1 << 16)
+        if line and line == own.read(1 << 16):
+            return "a fork of the host"
+        return line.replace(b"\0", b" ").decode(errors="replace").strip()[:_LONGEST_NAME]
+    return ""
 
 
 def _kill_group(host: int) -> None:
