@@ -282,7 +282,7 @@ def main() -> None:
         error.show()
         sys.exit(options.WRONG_USE)
     except (WrongUse, DocumentError, HostUnavailable) as error:
-        click.echo(f"ucm-cts: {error}", err=True)
+        click.echo(f"ucm-cts: {clean(str(error))}", err=True)
         sys.exit(options.WRONG_USE)
     except (click.exceptions.Abort, KeyboardInterrupt):
         click.echo("ucm-cts: interrupted", err=True)

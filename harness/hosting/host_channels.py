@@ -18,6 +18,7 @@ from typing import Protocol
 
 import psutil
 
+from ucm_cts.adapters.sdk.python.template import NO_CONTROL
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
 from ucm_cts.harness.hosting.process_tree import MARK, below, end_marked, is_child_of, is_stopped, new_mark
 from ucm_cts.harness.results.foreign import clean, one_line
@@ -191,6 +192,8 @@ class TemplateProcess:
         self._control, self._unread, self._forked, self._ended = ours, b"", [], {}
         try:
             first = self._read_first(seconds)
+        except ControlBroken:
+            first = "?"
         except (OSError, EOFError):
             first = ""
         except BaseException:
@@ -210,7 +213,7 @@ class TemplateProcess:
             raise self._unavailable("unreachable", f"'{self._name}' was not loaded{how}")
         if word == "failed" and text is not None:
             raise WrongUse(f"'{self._name}': {text}")
-        if first or lives:
+        if first or lives or status == NO_CONTROL:
             what = "writes to" if first else "has closed"
             raise self._unavailable("unreachable", f"'{self._name}' {what} {_CONTROL_CHANNEL}")
         how = _ending(status)
@@ -289,7 +292,10 @@ class TemplateProcess:
         process, self._process = self._process, None
         if process is None:
             return 0
-        _has_ended(process.pid, _FAREWELL_SECONDS)
+        if not _has_ended(process.pid, _FAREWELL_SECONDS):
+            for one in below(process.pid):  # it cannot end them any more
+                with suppress(psutil.Error):
+                    one.kill()
         with suppress(ProcessLookupError):  # what the adapter started when it was loaded belongs to this group, too
             os.killpg(process.pid, signal.SIGKILL)
         status = process.wait()

@@ -81,6 +81,8 @@ def namesakes(endpoint: Endpoint, file: str) -> Iterator[str]:
     if endpoint.kind != "python" or os.sep in endpoint.target or not file:
         return
     top = endpoint.target.partition(":")[0].partition(".")[0]
+    if top == __name__.partition(".")[0]:
+        return
     seen = {os.path.realpath(file)}
     for place in dict.fromkeys([os.getcwd(), *sys.path]):
         spec = importlib.machinery.PathFinder.find_spec(top, [place or os.getcwd()])

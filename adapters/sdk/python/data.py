@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import reprlib
 from collections.abc import Iterable, Sequence
 from typing import Any, TypeVar
 
@@ -22,6 +23,19 @@ def at_most(values: Iterable[T]) -> tuple[T, ...]:
     if len(taken) > MOST:
         raise TooMany(f"more than {MOST}")
     return taken
+
+
+_SHOWN = reprlib.Repr()
+_SHOWN.maxstring = _SHOWN.maxother = 80
+_SHOWN.maxlist = _SHOWN.maxtuple = _SHOWN.maxdict = 8
+
+
+def shown(value: object) -> str:
+    """``value`` for a message, shortened; never raises."""
+    try:
+        return _SHOWN.repr(value)
+    except BaseException:  # noqa: BLE001 - the object is the framework's
+        return f"a {type(value).__name__} that cannot be shown"
 
 
 def is_datum(value: object) -> bool:

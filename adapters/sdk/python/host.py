@@ -24,7 +24,7 @@ from urllib.parse import urlsplit
 
 from ucm_cts.adapters.contract.messages import Traced, from_host_decoder
 from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, file_of, load
-from ucm_cts.adapters.sdk.python.template import Template, refuse
+from ucm_cts.adapters.sdk.python.template import Template, adopt_orphans, refuse
 
 _GRACE = 30.0  # seconds a host may continue after its connection has ended
 
@@ -37,6 +37,8 @@ def main() -> None:
     how.add_argument("--control", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
     control = socket.socket(fileno=options.control) if options.control is not None else None
+    if control:
+        adopt_orphans()
     try:
         answer = load(options.adapter)
     except CannotLoad as error:

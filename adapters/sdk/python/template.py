@@ -20,12 +20,15 @@ import selectors
 import signal
 import socket
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from contextlib import suppress
 from typing import NoReturn
 
 _DIE_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 _ADOPT_ORPHANS = 36  # PR_SET_CHILD_SUBREAPER of Linux
+
+NO_CONTROL = 71
+"""The exit status of a template whose control channel was closed by what it has loaded."""
 
 _ROUNDS = 50
 """How many times strays are searched for, because those that are killed may have children, which the template adopts."""
@@ -38,9 +41,17 @@ BecomeHost = Callable[[int, int], NoReturn]
 
 
 def refuse(control: socket.socket, reason: str) -> NoReturn:
-    """Tell the harness that there will be no hosts, and end."""
-    control.sendall(b"failed " + json.dumps(reason).encode() + b"\n")
+    """Tell the harness that there will be no hosts, end what was started, and end."""
+    _end_children(frozenset())
+    with suppress(OSError):  # what was loaded may have closed it
+        control.sendall(b"failed " + json.dumps(reason).encode() + b"\n")
     sys.exit(2)
+
+
+def adopt_orphans() -> None:
+    """Let processes whose parents have ended become children of this one, where the system can: on Linux."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(_ADOPT_ORPHANS, 1, 0, 0, 0)
 
 
 class Template:
@@ -56,9 +67,8 @@ class Template:
         self._process_control = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
 
     def serve(self) -> None:
-        """Fork hosts on request and report their ends."""
-        if self._process_control is not None:
-            self._process_control(_ADOPT_ORPHANS, 1, 0, 0, 0)
+        """Fork hosts on request and report their ends. Ends the process if what was loaded has closed the control channel."""
+        adopt_orphans()
         self._helpers = frozenset(_children())  # what the adapter started when it was loaded serves all hosts
         wake, woken = os.pipe()
         os.set_blocking(woken, False)
@@ -69,10 +79,10 @@ class Template:
         gc.collect()
         gc.freeze()  # so that collections in hosts do not touch, and thereby copy, the template's pages
         with selectors.DefaultSelector() as selector:
-            selector.register(self._control, selectors.EVENT_READ)
             selector.register(wake, selectors.EVENT_READ)
-            self._control.sendall(b"ready %s\n" % json.dumps(self._file).encode())
             try:
+                selector.register(self._control, selectors.EVENT_READ)
+                self._control.sendall(b"ready %s\n" % json.dumps(self._file).encode())
                 while True:
                     ready = {key.fileobj for key, _ in selector.select()}
                     if wake in ready:
@@ -81,12 +91,14 @@ class Template:
                         self._report_ended()
                     if self._control in ready and not self._obey():
                         return
+            except (BrokenPipeError, ConnectionResetError):
+                return  # the harness has closed it
+            except OSError:
+                sys.exit(NO_CONTROL)
             finally:
                 for host in self._hosts:
                     _kill_group(host)
-                self._hosts.clear()
-                self._helpers = frozenset()
-                self._end_strays()
+                _end_children(frozenset())
 
     def _obey(self) -> bool:
         text, descriptors, _, _ = socket.recv_fds(self._control, 4096, 3)
@@ -139,23 +151,33 @@ class Template:
 
     def _strays(self) -> dict[int, str]:
         """The command lines of processes that hosts have left behind, by their numbers."""
-        return {number: _command_line(number) for number in _children() if number not in self._hosts | self._helpers}
+        return _children_but(self._hosts | self._helpers)
 
     def _end_strays(self) -> dict[int, str]:
         """Kill them, and what they leave behind in their turn; returns them."""
-        ended: dict[int, str] = {}
-        for _ in range(_ROUNDS):
-            strays = self._strays()
-            if not strays:
-                break
-            for number, name in strays.items():
-                if name:
-                    ended.setdefault(number, name)
-                with suppress(OSError):
-                    os.kill(number, signal.SIGKILL)
-                with suppress(OSError):
-                    os.waitpid(number, 0)
-        return ended
+        return _end_children(self._hosts | self._helpers)
+
+
+def _children_but(others: Collection[int]) -> dict[int, str]:
+    """The command lines of the children of this process that are not ``others``."""
+    return {number: _command_line(number) for number in _children() if number not in others}
+
+
+def _end_children(others: Collection[int]) -> dict[int, str]:
+    """Kill all children but ``others``, and what becomes a child meanwhile; returns the command lines of those that lived."""
+    ended: dict[int, str] = {}
+    for _ in range(_ROUNDS):
+        strays = _children_but(others)
+        if not strays:
+            break
+        for number, name in strays.items():
+            if name:
+                ended.setdefault(number, name)
+            with suppress(OSError):
+                os.kill(number, signal.SIGKILL)
+            with suppress(OSError):
+                os.waitpid(number, 0)
+    return ended
 
 
 def _children() -> list[int]:
@@ -174,7 +196,16 @@ def _command_line(number: int) -> str:
         line = stream.read(1 << 16)
         if line and line == own.read(1 << 16):
             return "a fork of the host"
-        return line.replace(b"\0", b" ").decode(errors="replace").strip()[:_LONGEST_NAME]
+        shown = line.replace(b"\0", b" ").decode(errors="replace").strip()[:_LONGEST_NAME]
+        return shown or _name_of_living(number)
+    return ""
+
+
+def _name_of_living(number: int) -> str:
+    """The name of a process without a command line, as at the moment when it begins another program; empty if it has ended."""
+    with suppress(OSError, IndexError), open(f"/proc/{number}/stat", "rb") as stream:
+        name, _, state = stream.read().partition(b"(")[2].rpartition(b") ")
+        return "" if state[:1] in b"ZX" else name.decode(errors="replace")
     return ""
 
 

@@ -114,7 +114,7 @@ def run(
             status = process.wait()
             end_marked(process.pid, mark)
     if incident is None and status == -signal.SIGXFSZ:
-        incident = _TOO_MUCH
+        incident = _too_much()
     if incident is None and shutil.disk_usage(folder).free < _LEAST_FREE:
         incident = Incident(
             "unreachable", f"no room is left in {folder.parent}; free some, or set TMPDIR to another folder"
@@ -122,8 +122,8 @@ def run(
     return Ended(status if incident is None else None, *supervisor.printed, incident)
 
 
-_TOO_MUCH = Incident("flood", f"more than {MOST_BYTES // _MIB} MiB of files")
-_TOO_MANY = Incident("flood", f"more than {MOST_FILES} files")
+def _too_much() -> Incident:
+    return Incident("flood", f"more than {MOST_BYTES // _MIB} MiB of files")
 
 
 class _Supervisor:
@@ -168,7 +168,7 @@ class _Supervisor:
             with suppress(OSError):
                 size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK
             if size > MOST_BYTES or files > MOST_FILES:
-                return _TOO_MUCH if size > MOST_BYTES else _TOO_MANY
+                return _too_much() if size > MOST_BYTES else Incident("flood", f"more than {MOST_FILES} files")
         now = time.monotonic()
         self._sample_files_at = now + max(_FILES_SAMPLE_SECONDS, _RARELY * (now - begun))
         return None
