@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
 from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
-from ucm_cts.adapters.sdk.python.data import TooMany, at_most, is_datum, overwrite, shown, snapshot
+from ucm_cts.adapters.sdk.python.data import TooMany, at_most, is_datum, overwrite, snapshot
 from ucm_cts.adapters.sdk.python.gates import Gates
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
@@ -182,7 +182,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         if self._is_stressed():
             return ~value
         if not is_integer(value):
-            self.stage.recorder.complain(f"exchange was called with {shown(value)}, which is no integer")
+            self.stage.recorder.complain(f"exchange was called with {value!r}, which is no integer")
             value = 0
         result = self._visit("exchange", result=~value, port=port, value=value)
         assert result is not None
@@ -194,7 +194,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         if not self.stage.recorder.recording:
             return []
         if not (isinstance(arguments, list | tuple) and is_datum(arguments)):
-            self.stage.recorder.complain(f"{method} was called with {shown(arguments)}, which are no values")
+            self.stage.recorder.complain(f"{method} was called with {arguments!r}, which are no values")
             return []
         if any(isinstance(action, s.CountMessages) for action in plan):
             self.stage.messages.add(self.component, self.instance, int(arguments[0]))
@@ -259,7 +259,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             self._record(t.Reply, port=port, raised=True)
             return
         if not is_integer(result):
-            self.stage.recorder.complain(f"exchange returned {shown(result)} to a probe; it returns an integer")
+            self.stage.recorder.complain(f"exchange returned {result!r} to a probe; it returns an integer")
             return
         self._record(t.Reply, port=port, value=result)
 
@@ -278,7 +278,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
 
     def _reply(self, action: s.CallMethod, results: Any, exception: str | None = None) -> None:
         if not (isinstance(results, list | tuple) and is_datum(results)):
-            self.stage.recorder.complain(f"{action.method} gave {shown(results)} to a probe, which are no values")
+            self.stage.recorder.complain(f"{action.method} gave {results!r} to a probe, which are no values")
             results = ()
         self._record(t.Reply, port=action.port, results=snapshot(results), exception=exception)
 
@@ -306,7 +306,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             return
         if not all(map(is_integer, members)):
             self.stage.recorder.complain(
-                f"get_components of the container interface returned {shown(members)}, not integers"
+                f"get_components of the container interface returned {members!r}, not integers"
             )
             return
         self._record(t.Siblings, ids=members)
@@ -327,7 +327,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
     def _is_text(self, where: str, *names: Any) -> bool:
         for name in names:
             if not isinstance(name, str):
-                self.stage.recorder.complain(f"{where} was given {shown(name)} where a string is due")
+                self.stage.recorder.complain(f"{where} was given {name!r} where a string is due")
                 return False
         return True
 
