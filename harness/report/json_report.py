@@ -24,6 +24,7 @@ TRACE = 500
 OUTPUT = 4_000
 """The most characters that are written of what a command printed."""
 
+
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Base of the values of ``report.json``: every field is always there."""
 
@@ -36,6 +37,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             if name not in others and hasattr(source, name)
         }
         return cls(**same, **others)
+
 
 class FindingEntry(Entry, frozen=True):
     """One cause of failure.
@@ -68,6 +70,7 @@ class FindingEntry(Entry, frozen=True):
     steady: tuple[Event, ...] = ()
     explains: tuple[str, ...] = ()
 
+
 class RequirementEntry(Entry, frozen=True):
     """One requirement of the catalogue with its verdict.
 
@@ -90,6 +93,7 @@ class RequirementEntry(Entry, frozen=True):
     derived: str = ""
     seconds: float = 0.0
 
+
 class IncidentEntry(Entry, frozen=True):
     """A cause for which scenarios broke the framework's host.
 
@@ -105,6 +109,7 @@ class IncidentEntry(Entry, frozen=True):
     occurrences: int = 1
     requirements: tuple[str, ...] = ()
 
+
 class TransitionEntry(Entry, frozen=True):
     """One row of the life-cycle table."""
 
@@ -112,6 +117,7 @@ class TransitionEntry(Entry, frozen=True):
     exercised: int
     violated: int
     readings: tuple[str, ...]
+
 
 class StatementEntry(Entry, frozen=True):
     """What the vendor states; ``source`` is the file's name, empty if there was no file and defaults hold."""
@@ -125,11 +131,13 @@ class StatementEntry(Entry, frozen=True):
     ixit: dict[str, float]
     models: tuple[str, ...]
 
+
 class ReportEntry(Entry, frozen=True):
     """The whole of ``report.json``.
 
     ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
-    empty after a run of everything.
+    empty after a run of everything. ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are
+    what its vendor should know of it.
     """
 
     product: str
@@ -153,6 +161,9 @@ class ReportEntry(Entry, frozen=True):
     runs: int
     incomplete: str = ""
     selection: str = ""
+    adapter_file: str = ""
+    warnings: tuple[str, ...] = ()
+
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     """``report.json``, indented, ending with a newline. The report must be clean (``foreign.clean_report``)."""
@@ -166,6 +177,7 @@ def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
         **_body(report),
     )
     return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
+
 
 def _body(report: v.Report) -> dict[str, Any]:
     """What differs between products. For a tool chain ``scenarios`` are models and ``events`` are facts."""
@@ -187,6 +199,7 @@ def _body(report: v.Report) -> dict[str, Any]:
     counts = {"scenarios": report.models, "events": report.facts, "runs": 1}
     return {"incidents": (), "transitions": (), "readings": {}, **counts}
 
+
 def schema() -> dict[str, Any]:
     """JSON Schema of ``report.json``."""
     return {
@@ -195,6 +208,7 @@ def schema() -> dict[str, Any]:
         **msgspec.json.schema(ReportEntry),
     }
 
+
 def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) -> RequirementEntry:
     findings = enumerate(shortest_first(result.findings))
     return RequirementEntry.of(
@@ -202,6 +216,7 @@ def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) 
         derived=known[result.id].derived if result.id in known else "",
         findings=tuple(_finding(failed, file_name(result.id, number)) for number, failed in findings),
     )
+
 
 def _finding(failed: v.ReportedFinding, replay: str) -> FindingEntry:
     finding = failed.finding

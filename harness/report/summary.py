@@ -47,6 +47,7 @@ def summary(report: Report, out: Path | None = None, whole: bool = False, everyt
             f"  {name}, profile {one_line(report.profile, 40)}{only}",
         ),
         _counts(report),
+        *(Text(f"  warning: {one_line(warning, 600)}", "yellow") for warning in getattr(report, "warnings", ())),
     ]
     if report.incomplete:
         lines.append(Text(f"  incomplete: {one_line(report.incomplete)}", "bold yellow"))

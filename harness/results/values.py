@@ -218,6 +218,10 @@ class FrameworkReport(Report, frozen=True, kw_only=True):
     readings: dict[str, tuple[str, ...]]
     """The readings that were observed, by option."""
     runs: int = 1
+    adapter_file: str = ""
+    """The file that the adapter was loaded from; empty if it is not known."""
+    warnings: tuple[str, ...] = ()
+    """What the vendor should know of the adapter, a sentence each."""
 
 
 class ToolChainReport(Report, frozen=True, kw_only=True):

@@ -16,6 +16,7 @@ from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Incident, Processed
 from ucm_cts.harness.toolchains.commands.bounded import Ended, own_folder, run
 from ucm_cts.harness.toolchains.commands.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
+from ucm_cts.harness.toolchains.commands.expressions import compiled, matches
 
 SEVERAL = 40
 """Models for one call that takes several."""
@@ -76,7 +77,9 @@ class CommandLine:
 
     def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         """Where one call takes several models it must be clear which it refuses; if it is not, each gets a call of its own."""
-        made = self._together(task, models) if len(models) > 1 else None
+        made = None
+        with suppress(OSError):  # the disk may be full, which each model will show
+            made = self._together(task, models) if len(models) > 1 else None
         return made or [self.process(task, name, text) for name, text in models]
 
     def _together(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response] | None:
@@ -91,7 +94,7 @@ class CommandLine:
             return None
         printed: dict[str, list[str]] = {str(file): [] for file in files}
         for line in ended.output.splitlines():
-            found = re.match(command.diagnostic, line)
+            found = compiled(command.diagnostic).match(line)
             if (
                 found
                 and not _REMARK.match(line[found.end() :])
@@ -109,6 +112,14 @@ class CommandLine:
         return responses
 
     def process(self, task: Task, name: str, text: str) -> Response:
+        try:
+            return self._alone(task, name, text)
+        except OSError as error:
+            incident = Incident("unreachable", f"the model cannot be written: {error.strerror or error}")
+            shown = self._programs[task][0].command
+            return Response(Processed(name, task, text, shown, None, "", incident), None)
+
+    def _alone(self, task: Task, name: str, text: str) -> Response:
         command, words = self._programs[task]
         with own_folder() as folder:
             model, out = folder / MODEL_FILE, folder / OUT_FOLDER
@@ -170,7 +181,7 @@ def named_lines(output: str, diagnostic: str, model: str) -> frozenset[int]:
     """The lines of ``model`` that ``output`` names; numbers beside the name of another file do not count."""
     last = model.count("\n") + 1
     lines: set[int] = set()
-    for match in re.finditer(diagnostic, output[:_OUTPUT], re.MULTILINE):
+    for match in matches(diagnostic, output[:_OUTPUT]):
         file = (match.groupdict().get("file") or MODEL_FILE).strip()
         number = match["line"] or ""
         if Path(file).name == MODEL_FILE and number.isdecimal() and len(number) < 10 and 0 < int(number) <= last:
