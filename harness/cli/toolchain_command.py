@@ -55,6 +55,8 @@ def certify_toolchain(
         seed=seed,
     )
     interrupted = _conduct(campaign, len(examination.models), console)
+    for warning in campaign.warnings():
+        console.say(f"warning: {warning}")
     report = campaign.report()
     save_report(report, out)
     leave_with(console, report, out, known, not expression, interrupted)

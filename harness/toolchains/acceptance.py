@@ -142,10 +142,11 @@ def _answer(response: Response) -> Answer:
 
 def judge(chosen: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:
     """A judgement for each question that was answered."""
+    twins = {q.name: q.text for q in chosen}
     legal = {q.name: q.text for q in chosen if q.due == "accept" and q.name in answers and _may_count(q, answers)}
     minimal = MinimalRefusals(legal, {name for name in legal if answers[name].accepted is False})
     unspecified = refused_for_spelling(legal, {name: answers[name].accepted for name in legal})
-    return [_judged(q, answers, minimal, unspecified) for q in chosen if q.name in answers]
+    return [_judged(q, answers, minimal, unspecified, twins) for q in chosen if q.name in answers]
 
 
 def _may_count(q: Question, answers: Mapping[str, Answer]) -> bool:
@@ -154,8 +155,18 @@ def _may_count(q: Question, answers: Mapping[str, Answer]) -> bool:
     return not q.twin or (twin is not None and bool(twin.accepted))
 
 
+def _related(q: Question, twins: Mapping[str, str]) -> frozenset[int]:
+    """The lines of ``q`` on which a diagnostic of its edit may stand."""
+    twin = twins.get(q.twin, "")
+    return related_lines(q.text, q.changed, twin, differing_lines(q.text, twin) if twin else frozenset())
+
+
 def _judged(
-    q: Question, answers: Mapping[str, Answer], minimal: MinimalRefusals, unspecified: Mapping[str, str]
+    q: Question,
+    answers: Mapping[str, Answer],
+    minimal: MinimalRefusals,
+    unspecified: Mapping[str, str],
+    twins: Mapping[str, str],
 ) -> Judgement:
     answer = answers[q.name]
     rule = RULE_FOR[q.due]
@@ -171,7 +182,7 @@ def _judged(
     if not _may_count(q, answers):
         return undecided(f"its legal twin {q.twin} was not accepted", True)
     if answer.accepted == (q.due == "accept"):
-        if q.due == "refuse" and answer.lines and q.changed and not answer.lines & related_lines(q.text, q.changed):
+        if q.due == "refuse" and answer.lines and q.changed and not answer.lines & _related(q, twins):
             where = ", ".join(map(str, sorted(answer.lines)))
             return undecided(f"refused, but for line {where}, which is not related to the defect: {answer.first_line}")
         return Judgement(q, rule, "kept")

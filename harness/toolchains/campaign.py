@@ -128,6 +128,10 @@ class ToolChainCampaign:
         responses = self._processor.process_all(task, some)
         return [(one, self._examination.examine(name, one)) for name, one in zip(names, responses, strict=True)]
 
+    def warnings(self) -> tuple[str, ...]:
+        """What the vendor should know of how the calls went."""
+        return self._processor.warnings()
+
     def judge(self) -> None:
         """Judge the responses so far."""
         self._facts = list(self._examination.judge(self._responses, self._shown))
