@@ -8,7 +8,7 @@ variant counts only if its twin was accepted.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -16,6 +16,7 @@ from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, FactEvidence
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.commands.processing import Response
+from ucm_cts.harness.toolchains.corpus.misplacement import is_broken_in
 from ucm_cts.harness.toolchains.corpus.selection import Due, Question, differing_lines, questions
 from ucm_cts.harness.toolchains.minimal_refusals import MinimalRefusals
 from ucm_cts.harness.toolchains.related_lines import related_lines
@@ -72,7 +73,7 @@ class Acceptance:
             wanted = [q for q in chosen if any(w in f"{q.name} {q.requirement}".lower() for w in words)]
             twins = {q.twin for q in wanted}
             chosen = [q for q in chosen if q in wanted or q.name in twins]
-        self._questions = renamed(chosen, renaming)
+        self._questions = renamed([q for q in chosen if is_broken_in(renaming.dialect, q.name)], renaming)
         self.not_applicable = _not_applicable(statement)
         self._texts = {q.name: q.text for q in self._questions}
 
@@ -106,19 +107,36 @@ class Acceptance:
 
 
 def _not_applicable(statement: Statement) -> Mapping[str, str]:
-    """The requirements that are tested only under readings that the vendor does not declare, and the declared ones."""
-    all_questions = questions()
-    tested = {q.requirement for q in all_questions if all(map(statement.meets, q.under))}
+    """The requirements of which nothing is asked, or no broken model, under the readings that the vendor declares, and why.
+
+    Where legal models are asked all the same, a refusal of one still fails the requirement. A declared reading that accepts what
+    another one refuses is asked in full by its legal models.
+    """
+    asked: dict[tuple[str, Due], list[Question]] = {}
+    breakable = {q.requirement for q in questions() if q.due == "refuse"}
     options: dict[str, set[str]] = {}
-    for q in all_questions:
-        if q.requirement not in tested:
+    for q in questions():
+        if all(map(statement.meets, q.under)):
+            asked.setdefault((q.requirement, q.due), []).append(q)
+        elif q.due == "refuse" or q.requirement not in breakable:
             unmet = {need.partition("=")[0] for need in q.under if not statement.meets(need)}
             options.setdefault(q.requirement, set()).update(unmet)
     source = f"{statement.source} says" if statement.source else "without a statement it holds that"
-    return {
-        requirement: f"{source} {', '.join(f'{option} = {statement.readings[option]}' for option in sorted(unmet))}"
-        for requirement, unmet in options.items()
-    }
+    found: dict[str, str] = {}
+    for requirement, unmet in options.items():
+        accepted = asked.get((requirement, "accept"), [])
+        never_broken = accepted and requirement not in breakable
+        if (requirement, "refuse") in asked or never_broken or _decided_by(accepted, unmet):
+            continue
+        what = "accepted side only, no broken model is ever asked" if accepted else "it is never asked"
+        declared = ", ".join(f"{option} = {statement.readings[option]}" for option in sorted(unmet))
+        found[requirement] = f"{what}: {source} {declared}"
+    return found
+
+
+def _decided_by(accepted: Sequence[Question], options: Collection[str]) -> bool:
+    """Whether some of the legal models ``accepted`` are legal by a reading of ``options``."""
+    return any(need.partition("=")[0] in options for q in accepted for need in q.under)
 
 
 def renamed(chosen: Sequence[Question], renaming: Renaming) -> list[Question]:
