@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.framework_body import TraceShown, framework_body, trace_shown
-from ucm_cts.harness.report.order import VERDICTS, clause_key, count, counted, to_fix
+from ucm_cts.harness.report.order import VERDICTS, clause_key, count, counted, sides, to_fix
 from ucm_cts.harness.report.page import part, rendered
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
@@ -62,6 +62,7 @@ def to_html(
         counts=count(report.requirements),
         verdicts=VERDICTS,
         to_fix=to_fix(report.requirements),
+        sides=sides(report),
         items=_items(report, catalogue, interpretations),
         untestable=sorted(
             (entry for entry in catalogue if entry.untestable and entry.id not in reported),

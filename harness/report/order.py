@@ -6,7 +6,16 @@ import re
 from collections.abc import Iterable
 from typing import Protocol
 
-from ucm_cts.harness.results.values import FrameworkReport, Overall, Report, RequirementResult, ToolChainReport, Verdict
+from ucm_cts.harness.results.values import (
+    REQUIREMENTS_WITH,
+    SIDES,
+    FrameworkReport,
+    Overall,
+    Report,
+    RequirementResult,
+    ToolChainReport,
+    Verdict,
+)
 
 VERDICTS: tuple[Verdict, ...] = ("fail", "error", "inconclusive", "pass", "not applicable")
 """All verdicts, the worst first."""
@@ -30,18 +39,42 @@ def counted(report: Report) -> tuple[tuple[int, str], tuple[int, str]]:
     raise TypeError(type(report))
 
 
+def sides(report: Report) -> list[str]:
+    """What a checker does with legal and with broken models, a sentence each; nothing for other products."""
+    measures = report.effort.measures
+    return [
+        f"{side}: {measures.get(done, 0):,} of {measures[asked]:,} models, "
+        f"{measures.get(REQUIREMENTS_WITH + done, 0):,} of {measures.get(REQUIREMENTS_WITH + asked, 0):,} requirements"
+        for side, (asked, done) in SIDES.items()
+        if asked in measures
+    ]
+
+
 def clause_key(clause: str) -> tuple[int, ...]:
     """Sorts clauses as a table of contents does: 11.2.3 before 11.10."""
     return tuple(int(number[:9]) for number in _NUMBER.findall(clause))
 
 
 def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
-    """Failed requirements in the order to work on them: the most frequent first, then by clause."""
+    """Failed requirements in the order to work on them: the most frequent first, then by clause, then what ``is_shown_elsewhere``."""
+    failed = [result for result in results if result.verdict == "fail"]
+    shown = causes_shown(failed)
 
-    def key(result: RequirementResult) -> tuple[int, tuple[int, ...], str]:
-        return -sum(failed.occurrences for failed in result.findings), clause_key(result.clause), result.id
+    def key(result: RequirementResult) -> tuple[bool, int, tuple[int, ...], str]:
+        times = sum(finding.occurrences for finding in result.findings)
+        return is_shown_elsewhere(result, shown), -times, clause_key(result.clause), result.id
 
-    return sorted((result for result in results if result.verdict == "fail"), key=key)
+    return sorted(failed, key=key)
+
+
+def causes_shown(results: Iterable[RequirementResult]) -> frozenset[str]:
+    """The causes of findings that have evidence."""
+    return frozenset(f.finding.cause for result in results for f in result.findings if f.evidence is not None)
+
+
+def is_shown_elsewhere(result: RequirementResult, shown: frozenset[str]) -> bool:
+    """Whether each finding has its evidence at another requirement, which one cause breaks as well."""
+    return bool(result.findings) and all(f.evidence is None and f.finding.cause in shown for f in result.findings)
 
 
 class HasVerdict(Protocol):

@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
-from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, to_fix
+from ucm_cts.harness.report.order import SEALS, SYMBOLS, causes_shown, count, counted, is_shown_elsewhere, sides, to_fix
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import all_known
@@ -37,12 +37,18 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
             f"  {name}, profile {one_line(report.profile, 40)}",
         ),
         _counts(report),
+        *(Text(f"  {side}", "dim") for side in sides(report)),
     ]
-    failed = to_fix(report.requirements)
+    everything = to_fix(report.requirements)
+    shown = causes_shown(everything)
+    failed = [result for result in everything if not is_shown_elsewhere(result, shown)]
     for result in failed[:SHOWN]:
         lines += [Text(), *_failure(result)]
     if len(failed) > SHOWN:
         lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
+    if len(everything) > len(failed):
+        same = len(everything) - len(failed)
+        lines += [Text(), Text(f"and {same} more requirements that fail for causes shown above", "dim")]
     incidents = incidents_of(report)
     if incidents:
         lines.append(Text())

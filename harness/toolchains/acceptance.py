@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, get_args
 
 from ucm_cts.harness.results.statement import Statement
-from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, FactEvidence
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, REQUIREMENTS_WITH, SIDES, FactEvidence
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.commands.processing import Response
 from ucm_cts.harness.toolchains.corpus.misplacement import is_broken_in
@@ -89,20 +89,27 @@ class Acceptance:
     def judge(self, responses: Mapping[str, Response], shown: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """A fact for each answer."""
         answers = {name: _answer(response) for name, response in responses.items()}
-        for judgement in judge(self._questions, answers):
-            yield self._fact(judgement, responses[judgement.question.name])
+        judged = judge(self._questions, answers)
+        causes = causes_of(judged)
+        for judgement in judged:
+            yield self._fact(judgement, responses[judgement.question.name], causes)
+        yield from _on_either_side(judged)
 
-    def _fact(self, judgement: Judgement, response: Response) -> Fact:
+    def _fact(self, judgement: Judgement, response: Response, causes: Mapping[str, Cause]) -> Fact:
         q = judgement.question
         models = (q.twin, q.name) if q.twin else (q.name,)
-        measure = f"models to {q.due}"
         if judgement.outcome == "undecided":
             others = judgement.leaves_others
+            measure = "models that decide nothing"
             return Fact(q.requirement, models, undecided=judgement.observed, leaves_others=others, measure=measure)
+        measure = f"models to {q.due}"
         if judgement.outcome == "kept":
             return Fact(q.requirement, models, measure=measure)
-        finding = Finding(q.requirement, judgement.rule, q.name, judgement.expected, judgement.observed)
-        evidence = FactEvidence(response.processed, self._texts.get(q.twin, ""))
+        cause = causes[q.name]
+        observed = f"{judgement.observed}{f'; see {cause.shown_by}' if cause.shown_by != q.name else ''}"
+        finding = Finding(q.requirement, judgement.rule, cause.name, judgement.expected, observed)
+        whole = cause.shown_by in (q.name, "") or cause.requirement == q.requirement
+        evidence = FactEvidence(response.processed, self._texts.get(q.twin, "")) if whole else None
         return Fact(q.requirement, models, finding, evidence=evidence, measure=measure)
 
 
@@ -156,6 +163,54 @@ def _answer(response: Response) -> Answer:
         return Answer(response.accepted, response.lines, response.first_line)
     own = incident.kind in FRAMEWORK_INCIDENTS - {"exit"}
     return Answer(None, first_line=f"{incident.kind}: {incident.detail}", incident=own)
+
+
+@dataclass(frozen=True)
+class Cause:
+    """What several findings have in common: its name, and the model and requirement that show it first."""
+
+    name: str
+    shown_by: str
+    requirement: str
+
+
+NOTHING_REFUSED = "no broken model is refused"
+"""The one cause of all findings on a checker that accepts everything."""
+
+_MANY = 20
+"""Broken models of which at least one must have been refused by a checker that checks anything."""
+
+
+def causes_of(judged: Sequence[Judgement]) -> Mapping[str, Cause]:
+    """The cause of each broken judgement, by its question.
+
+    One missing check is one cause: the models that one operator or one case makes, whichever requirement they are for.
+    """
+    decided = [j.outcome for j in judged if j.question.due == "refuse" and j.outcome != "undecided"]
+    checks_nothing = len(decided) >= _MANY and "kept" not in decided
+    first: dict[str, Cause] = {}
+    found: dict[str, Cause] = {}
+    for judgement in judged:
+        q = judgement.question
+        if judgement.outcome == "broken":
+            name = NOTHING_REFUSED if checks_nothing and q.due == "refuse" else q.family
+            found[q.name] = first.setdefault(name, Cause(name, q.name, q.requirement))
+    return found
+
+
+def _on_either_side(judged: Sequence[Judgement]) -> Iterator[Fact]:
+    """Remarks that count, for both sides of a checker, models and requirements."""
+    for due, (asked, done) in zip(get_args(Due), SIDES.values(), strict=True):
+        outcomes: dict[str, list[Outcome]] = {}
+        for judgement in judged:
+            if judgement.question.due == due and judgement.outcome != "undecided":
+                outcomes.setdefault(judgement.question.requirement, []).append(judgement.outcome)
+        for requirement, those in outcomes.items():
+            yield from (Fact("", (requirement,), measure=asked) for _ in those)
+            yield from (Fact("", (requirement,), measure=done) for outcome in those if outcome == "kept")
+            yield Fact("", (requirement,), measure=f"{REQUIREMENTS_WITH}{asked}")
+            if "broken" not in those:
+                yield Fact("", (requirement,), measure=f"{REQUIREMENTS_WITH}{done}")
 
 
 def judge(chosen: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:

@@ -186,7 +186,7 @@ class ToolChainCampaign:
             started=self._started,
             seconds=round(time.monotonic() - self._began, 3),
             models=len(self._responses),
-            facts=len(self._facts),
+            facts=sum(1 for fact in self._facts if fact.requirement),
             statement=self._statement,
             effort=Effort(dict(self._measures.most_common())),
         )

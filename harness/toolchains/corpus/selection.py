@@ -41,6 +41,13 @@ class Question:
     changed: frozenset[int] = frozenset()
     under: tuple[str, ...] = ()
 
+    @property
+    def family(self) -> str:
+        """What it has in common with the models that the same operator, or the same case, makes."""
+        made_by = self.name.partition("/")[0]
+        operator = OPERATORS.get(made_by)
+        return operator.family if operator is not None else made_by
+
 
 class WholeModel(Value, frozen=True):
     """A legal model of ``suite/models/legal``: refusing it breaks ``accepts``, unless a simpler one is refused, too."""
