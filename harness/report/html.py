@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.framework_body import TraceShown, framework_body, trace_shown
-from ucm_cts.harness.report.order import VERDICTS, clause_key, count, counted, sides, to_fix
+from ucm_cts.harness.report.order import VERDICTS, by_own_cause, clause_key, count, counted, sides, to_fix
 from ucm_cts.harness.report.page import part, rendered
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
@@ -56,12 +56,14 @@ def to_html(
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     readings = report.readings if isinstance(report, v.FrameworkReport) else {}
     reported = {result.id for result in report.requirements}
+    failed, same_cause = by_own_cause(to_fix(report.requirements))
     return rendered(
         "report.html.jinja",
         report=report,
         counts=count(report.requirements),
         verdicts=VERDICTS,
-        to_fix=to_fix(report.requirements),
+        to_fix=failed,
+        same_cause=same_cause,
         sides=sides(report),
         items=_items(report, catalogue, interpretations),
         untestable=sorted(

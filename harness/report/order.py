@@ -56,23 +56,30 @@ def clause_key(clause: str) -> tuple[int, ...]:
 
 
 def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
-    """Failed requirements in the order to work on them: the most frequent first, then by clause, then what ``is_shown_elsewhere``."""
+    """Failed requirements in the order to work on them: the most frequent first, then by clause, then those whose causes others show."""
     failed = [result for result in results if result.verdict == "fail"]
-    shown = causes_shown(failed)
+    shown = _causes_shown(failed)
 
     def key(result: RequirementResult) -> tuple[bool, int, tuple[int, ...], str]:
         times = sum(finding.occurrences for finding in result.findings)
-        return is_shown_elsewhere(result, shown), -times, clause_key(result.clause), result.id
+        return _is_shown_elsewhere(result, shown), -times, clause_key(result.clause), result.id
 
     return sorted(failed, key=key)
 
 
-def causes_shown(results: Iterable[RequirementResult]) -> frozenset[str]:
+def by_own_cause(failed: list[RequirementResult]) -> tuple[list[RequirementResult], int]:
+    """Those of ``failed`` that show a cause, and how many others fail for these causes only."""
+    shown = _causes_shown(failed)
+    own = [result for result in failed if not _is_shown_elsewhere(result, shown)]
+    return own, len(failed) - len(own)
+
+
+def _causes_shown(results: Iterable[RequirementResult]) -> frozenset[str]:
     """The causes of findings that have evidence."""
     return frozenset(f.finding.cause for result in results for f in result.findings if f.evidence is not None)
 
 
-def is_shown_elsewhere(result: RequirementResult, shown: frozenset[str]) -> bool:
+def _is_shown_elsewhere(result: RequirementResult, shown: frozenset[str]) -> bool:
     """Whether each finding has its evidence at another requirement, which one cause breaks as well."""
     return bool(result.findings) and all(f.evidence is None and f.finding.cause in shown for f in result.findings)
 

@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
-from ucm_cts.harness.report.order import SEALS, SYMBOLS, causes_shown, count, counted, is_shown_elsewhere, sides, to_fix
+from ucm_cts.harness.report.order import SEALS, SYMBOLS, by_own_cause, count, counted, sides, to_fix
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import all_known
@@ -39,16 +39,13 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
         _counts(report),
         *(Text(f"  {side}", "dim") for side in sides(report)),
     ]
-    everything = to_fix(report.requirements)
-    shown = causes_shown(everything)
-    failed = [result for result in everything if not is_shown_elsewhere(result, shown)]
+    failed, same_cause = by_own_cause(to_fix(report.requirements))
     for result in failed[:SHOWN]:
         lines += [Text(), *_failure(result)]
     if len(failed) > SHOWN:
         lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
-    if len(everything) > len(failed):
-        same = len(everything) - len(failed)
-        lines += [Text(), Text(f"and {same} more requirements that fail for causes shown above", "dim")]
+    if same_cause:
+        lines += [Text(), Text(f"and {same_cause} more requirements that fail for causes shown above", "dim")]
     incidents = incidents_of(report)
     if incidents:
         lines.append(Text())

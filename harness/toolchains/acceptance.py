@@ -228,7 +228,7 @@ def _may_count(q: Question, answers: Mapping[str, Answer]) -> bool:
     return not q.twin or (twin is not None and bool(twin.accepted))
 
 
-def _related(q: Question, twins: Mapping[str, str]) -> frozenset[int]:
+def lines_of_consequences(q: Question, twins: Mapping[str, str]) -> frozenset[int]:
     """The lines of ``q`` on which a diagnostic of its edit may stand."""
     twin = twins.get(q.twin, "")
     return related_lines(q.text, q.changed, twin, differing_lines(q.text, twin) if twin else frozenset())
@@ -255,7 +255,7 @@ def _judged(
     if not _may_count(q, answers):
         return undecided(f"its legal twin {q.twin} was not accepted", True)
     if answer.accepted == (q.due == "accept"):
-        if q.due == "refuse" and answer.lines and q.changed and not answer.lines & _related(q, twins):
+        if q.due == "refuse" and answer.lines and q.changed and not answer.lines & lines_of_consequences(q, twins):
             where = ", ".join(map(str, sorted(answer.lines)))
             return undecided(f"refused, but for line {where}, which is not related to the defect: {answer.first_line}")
         return Judgement(q, rule, "kept")
