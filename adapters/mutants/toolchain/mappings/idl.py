@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ucm_cts.adapters.mutants.toolchain import rewriting as rw
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, named
+from ucm_cts.adapters.reference.toolchain.idl.generator import files_of
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 APPENDED: dict[str, tuple[str, str]] = {
@@ -56,3 +59,9 @@ def templates_are_plain_modules(program: Program) -> Program:
 def generates_nothing(program: Program) -> Program:
     """There is no file."""
     return rw.rewritten(program, lambda files: {})
+
+
+@breaks("R-12.1-03", task="idl")
+def names_clash_in_idl(program: Program) -> Program:
+    """Names that differ in case only, and enumerators of two enumerations, stand in one scope."""
+    return replace(program, generators={**program.generators, "idl": files_of})

@@ -12,6 +12,7 @@ from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.modules import MODULES
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.adapters.mutants.toolchain import rewriting as rw
+from ucm_cts.adapters.mutants.toolchain.checking import refusing_text
 from ucm_cts.adapters.mutants.toolchain.registry import named, variant
 from ucm_cts.adapters.reference.toolchain.program import Program
 
@@ -131,3 +132,9 @@ def interfaces_of_their_own_for_bindings(files: rw.Files) -> rw.Files:
         files[rw.MODEL],
     )
     return {**files, rw.MODEL: re.sub(r"(\w+_message_api)::message_intf (?=get_)", r"\1_intf ", text)}
+
+
+@variant(task="idl")
+def refuses_keywords(program: Program) -> Program:
+    """Refuses a model with names that are words of IDL."""
+    return refusing_text(program, rb'name="(module|struct|interface)"')
