@@ -87,3 +87,15 @@ def roles_want_their_items(spec: mc.PortRoleSpec, scope: Scope) -> bool:
     """Takes a role specification without any binding for an error if the role involves items."""
     role = scope.member(spec.role, InteractionPattern, "roles")
     return not spec.bindings and bool(getattr(role and role.element, "involved_items", ()))
+
+
+@complains_only_where("names_are_not_empty", "R-9.1.4.1-01")
+def ends_need_no_names(named: Any, _element: Any, _scope: Scope) -> bool:
+    """Takes ends of connections without a name."""
+    return not isinstance(named, mc.ConnectionEnd)
+
+
+@complains_only_where("manages_some_component", "R-9.5.4.2-01")
+def port_policies_manage_nothing(policy: Any, _element: Any, _scope: Scope) -> bool:
+    """Takes policies on ports that manage no component."""
+    return not isinstance(policy, mc.ComponentPortTechnicalPolicy)

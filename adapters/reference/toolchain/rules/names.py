@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, rule
 
-_NEED_NO_NAME = (mc.ConnectionEnd, mc.PortDelegation)
+_NEED_NO_NAME = (mc.PortDelegation,)
 _HAVE_RULES_OF_THEIR_OWN = (*MODULES, c.StructureField, c.UnionCase)
 
 _KINDS: tuple[tuple[str, tuple[type[Named], ...]], ...] = (
