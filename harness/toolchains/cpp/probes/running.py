@@ -136,7 +136,11 @@ class _Comparing:
             return [self._of_header(repr(name), "no #include can name it", ("", 0))]
         twice = f"{self._headers.include(name)}\n" * 2
         text = f"{twice}{redefined(self._expected.standard)}int main() {{ return 0; }}\n"
-        return self._of_headers_in(text, own, name, "alone and twice")
+        compiled = compiling.compile_text(text, own, self._headers, self._expected.standard, self._compiler)
+        if compiled.problem:
+            self._seen.problem = f"{name}: {compiled.problem}"
+            return [self._of_header(name, compiled.problem, (name, 0))]
+        return [self._of_header(name, _message_of(e), self._place_in(name, e)) for e in compiled.errors[:1]]
 
     def _in_another_order(self, folder: Path) -> list[Difference]:
         """Whether all headers compile together in the order of their names turned round; probes include them in that order."""
@@ -147,15 +151,9 @@ class _Comparing:
         own.mkdir()
         included = "\n".join(map(self._headers.include, reversed(names)))
         how = f"in the order {', '.join(reversed(names))}"
-        return self._of_headers_in(f"{included}\nint main() {{ return 0; }}\n", own, names[0], how)
-
-    def _of_headers_in(self, text: str, folder: Path, name: str, how: str) -> list[Difference]:
-        """What the compiler has against ``text``, which includes the header ``name`` in some way."""
-        compiled = compiling.compile_text(text, folder, self._headers, self._expected.standard, self._compiler)
-        if compiled.problem:
-            self._seen.problem = f"{name}: {compiled.problem}"
-            return [self._of_header(name, compiled.problem, (name, 0), how)]
-        return [self._of_header(name, _message_of(e), self._place_in(name, e), how) for e in compiled.errors[:1]]
+        text = f"{included}\nint main() {{ return 0; }}\n"
+        compiled = compiling.compile_text(text, own, self._headers, self._expected.standard, self._compiler)
+        return [self._of_header(names[0], _message_of(e), self._place_in(names[0], e), how) for e in compiled.errors[:1]]
 
     def _of_header(self, name: str, observed: str, place: tuple[str, int], how: str = "alone and twice") -> Difference:
         standard = {"cpp11": "C++11", "cpp03": "C++03"}[self._expected.standard]
