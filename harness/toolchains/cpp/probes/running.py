@@ -153,7 +153,9 @@ class _Comparing:
         how = f"in the order {', '.join(reversed(names))}"
         text = f"{included}\nint main() {{ return 0; }}\n"
         compiled = compiling.compile_text(text, own, self._headers, self._expected.standard, self._compiler)
-        return [self._of_header(names[0], _message_of(e), self._place_in(names[0], e), how) for e in compiled.errors[:1]]
+        return [
+            self._of_header(names[0], _message_of(e), self._place_in(names[0], e), how) for e in compiled.errors[:1]
+        ]
 
     def _of_header(self, name: str, observed: str, place: tuple[str, int], how: str = "alone and twice") -> Difference:
         standard = {"cpp11": "C++11", "cpp03": "C++03"}[self._expected.standard]
