@@ -8,6 +8,7 @@ variant counts only if its twin was accepted.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
@@ -231,7 +232,13 @@ def _may_count(q: Question, answers: Mapping[str, Answer]) -> bool:
 def lines_of_consequences(q: Question, twins: Mapping[str, str]) -> frozenset[int]:
     """The lines of ``q`` on which a diagnostic of its edit may stand."""
     twin = twins.get(q.twin, "")
-    return related_lines(q.text, q.changed, twin, differing_lines(q.text, twin) if twin else frozenset())
+    return related_lines(q.text, q.changed, twin, _taken_away(q.text, twin) if twin else frozenset())
+
+
+@functools.lru_cache(16384)
+def _taken_away(text: str, twin: str) -> frozenset[int]:
+    """The lines of ``twin`` that ``text`` does not have; computed once, as many tool chains are asked the same."""
+    return differing_lines(text, twin)
 
 
 def _judged(

@@ -52,7 +52,7 @@ class _Element:
             around = around.around
 
 
-@functools.lru_cache(8192)
+@functools.lru_cache(16384)
 def related_lines(
     text: str, changed: frozenset[int], before: str = "", left: frozenset[int] = frozenset()
 ) -> frozenset[int]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.common import Named
+from ucm_cts.adapters.contract.metamodel.common import Named, walk
 from ucm_cts.adapters.contract.metamodel.components import CompositeComponentImplementation
+from ucm_cts.adapters.contract.metamodel.contracts import Annotation
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Names, each_element
@@ -107,3 +108,15 @@ def interfaces_of_policy_definitions(program: Program) -> Program:
 def interfaces_of_composites(program: Program) -> Program:
     """Composites are interfaces."""
     return _declaring(program, CompositeComponentImplementation)
+
+
+@breaks("R-9.2.9.4-04", task="idl")
+def annotated_models_become_nothing(program: Program) -> Program:
+    """Nothing is made of a model with annotations."""
+    generate = program.generators["idl"]
+
+    def unless_annotated(model: Model) -> rw.Files:
+        is_annotated = any(isinstance(element, Annotation) for module in model.modules for element in walk(module))
+        return {} if is_annotated else generate(model)
+
+    return replace(program, generators={**program.generators, "idl": unless_annotated})
