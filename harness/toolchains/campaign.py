@@ -137,6 +137,10 @@ class ToolChainCampaign:
         self._seconds.update({name: (time.monotonic() - began) / len(some) for name, _ in some})
         return done
 
+    def warnings(self) -> tuple[str, ...]:
+        """What the vendor should know of how the calls went."""
+        return self._processor.warnings()
+
     def judge(self) -> None:
         """Judge the responses so far, instead of what was judged before."""
         self._tally = Tally()
@@ -222,7 +226,7 @@ class ToolChainCampaign:
             started=self._started,
             seconds=round(time.monotonic() - self._began, 3),
             models=len(self._responses),
-            facts=len(self._facts),
+            facts=sum(1 for fact in self._facts if fact.requirement),
             statement=self._statement,
             effort=Effort(dict(self._measures.most_common())),
         )
