@@ -27,7 +27,7 @@ def at_most(values: Iterable[T]) -> tuple[T, ...]:
 
 
 _SHOWN = reprlib.Repr()
-_SHOWN.maxstring = _SHOWN.maxother = 160
+_SHOWN.maxstring, _SHOWN.maxother = 80, 160
 _SHOWN.maxlist = _SHOWN.maxtuple = _SHOWN.maxdict = 8
 
 
