@@ -101,8 +101,8 @@ class Exploration:
         """Run the remembered failures. One that is not shown any more is forgotten, unless an incident came first."""
         remembered = missing = self._memory.recall()
         answered: set[Identity] = set()
-        for _ in range(TRIES):
-            again = (_purpose(f"known {n}", one.scenario) for n, one in enumerate(missing, 1))
+        for attempt in range(1, TRIES + 1):
+            again = (_purpose(f"known {n}.{attempt}", one.scenario) for n, one in enumerate(missing, 1))
             for one, checked in zip(missing, self._check(again), strict=True) if missing else ():
                 if _is_decided(one, checked):
                     answered.add(one.identity)
