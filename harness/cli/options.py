@@ -34,6 +34,8 @@ CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
 
 
 _UNITS = {"s": 1, "m": 60, "h": 3600}
+MOST_SECONDS = 86_400
+"""The longest time that an option can give."""
 
 
 class Seconds(click.FloatRange):
@@ -41,6 +43,8 @@ class Seconds(click.FloatRange):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         seconds = super().convert(value, param, ctx)
+        if seconds > MOST_SECONDS and math.isfinite(seconds):
+            self.fail(f"'{value}' is longer than a day; give at most {MOST_SECONDS} seconds.", param, ctx)
         if not math.isfinite(seconds):
             self.fail(f"'{value}' is no number of seconds.", param, ctx)
         return seconds

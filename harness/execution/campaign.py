@@ -259,6 +259,8 @@ class Campaign:
             transitions=self._tally.transitions(load_life_cycle()),
             incidents=incidents,
             adapter=self._driver.adapter,
+            adapter_file=self._driver.adapter_file,
+            warnings=self._driver.warnings,
             suite_version=ucm_cts.__version__,
             seed=self._driver.seed,
             started=self._started,
