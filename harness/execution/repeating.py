@@ -58,6 +58,7 @@ def repeated(reports: Sequence[v.FrameworkReport], steady: Steady) -> v.Framewor
         seconds=round(sum(report.seconds for report in reports), 3),
         scenarios=sum(report.scenarios for report in reports),
         events=sum(report.events for report in reports),
+        warnings=tuple(dict.fromkeys(warning for report in reports for warning in report.warnings)),
         readings=_readings(reports),
         provoked=dict(sum((Counter(report.provoked) for report in reports), Counter())),
         effort=_effort(reports),

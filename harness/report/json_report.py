@@ -136,7 +136,8 @@ class ReportEntry(Entry, frozen=True):
     """The whole of ``report.json``.
 
     ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
-    empty after a run of everything.
+    empty after a run of everything. ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are
+    what its vendor should know of it.
     """
 
     product: str
@@ -160,6 +161,8 @@ class ReportEntry(Entry, frozen=True):
     runs: int
     incomplete: str = ""
     selection: str = ""
+    adapter_file: str = ""
+    warnings: tuple[str, ...] = ()
     provoked: dict[str, int] = {}
 
 

@@ -56,7 +56,8 @@ def cause_of_incident(execution: Execution) -> IncidentCause:
         first = re.sub(rf"\b{re.escape(name)}\b", "#", first)
     alike = _SAME_AGAIN.sub(r"\1", _DIFFERENT.sub("#", one_line(first)))
     call = last_open_call(execution.trace)
-    operation = s.operation(execution.scenario.steps[call.step]) if call is not None else ""
+    steps = execution.scenario.steps
+    operation = s.operation(steps[call.step]) if call is not None and call.step < len(steps) else ""  # hosts may lie
     if not incident.reproduced:
         operation = NOT_AGAIN
     return IncidentCause(incident.kind, alike, operation, is_waiting(execution))

@@ -167,6 +167,7 @@ class Tally:
             if incident.incident.kind != "untried":  # their test purposes are run again
                 self._incidents.add_report(incident)
         self._observe(report.readings)
+        self.provoked.update(report.provoked)
         self.measures.update(report.effort.measures)
         self.scenarios += report.scenarios
         self.events += report.events

@@ -157,7 +157,7 @@ def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Discon
     if connection is None:
         return
     if isinstance(end, Raise):
-        if connection.live is None and end.error == "NOT_FOUND":
+        if connection.live is None and _is_not_there(ongoing, connection.client, end):
             connection.live = False
         elif connection.client.body in ongoing.by_body:
             connection.live = None
@@ -178,10 +178,15 @@ def _component_removed(runtime: Runtime, ongoing: OperationInProgress, step: s.R
         return
     if isinstance(end, Return):
         _removed(runtime, ongoing, [member])
-    elif member.leaving and end.error == "NOT_FOUND":
+    elif member.leaving and _is_not_there(ongoing, member, end):
         _gone_after_all(runtime, member)
     elif ongoing.received(member, "on_remove"):
         _perhaps_removed(runtime, [member])
+
+
+def _is_not_there(ongoing: OperationInProgress, owner: Member, end: Raise) -> bool:
+    """Does its own container say that what ``owner`` is or has is not there? Another container need not know it."""
+    return end.error == "NOT_FOUND" and ongoing.container is owner.container
 
 
 def _gone_after_all(runtime: Runtime, member: Member) -> None:
