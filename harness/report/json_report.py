@@ -165,7 +165,6 @@ class ReportEntry(Entry, frozen=True):
     warnings: tuple[str, ...] = ()
 
 
-
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     """``report.json``, indented, ending with a newline. The report must be clean (``foreign.clean_report``)."""
     known = {requirement.id: requirement for requirement in catalogue}
