@@ -69,6 +69,13 @@ def cli() -> None:
     show_default=True,
     help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
 )
+@click.option(
+    "--explore",
+    type=options.DrawnScenarios(or_none=True),
+    default="3s",
+    show_default=True,
+    help="How long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s.",
+)
 @click.option("--failed-first", is_flag=True, help="Begin with what failed in the last run into the same --out.")
 @click.option("--resume", is_flag=True, help="Go on with the interrupted run in the same --out.")
 @click.option("--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement.")
@@ -89,6 +96,7 @@ def run(
     memory: int,
     incident_time: float,
     systematic: int,
+    explore: options.Budget,
     failed_first: bool,
     resume: bool,
     everything: bool,
@@ -119,6 +127,7 @@ def run(
             in_process=in_process,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,
+            explore=explore,
             everything=everything,
             failed_first=failed_first,
             resume=resume,
@@ -127,7 +136,7 @@ def run(
     )
 
 
-OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "resume")
+OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "explore", "resume")
 """Options of ``run`` that tool chains do not have."""
 
 
