@@ -17,6 +17,7 @@ from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, ti
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.provocations.coverage import provocations
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.incidents import finding_of_incident, is_waiting
 from ucm_cts.harness.results.known_failures import KnownFailure
@@ -137,6 +138,7 @@ class Campaign:
             yield from judged
             return
         verdicts = self._monitor.judge(answer.disguised, answer.trace)
+        self._tally.provoked.update(p.name for p in provocations(answer.disguised, answer.trace))
         if watch is not None:
             watch(answer, verdicts)
         if not verdicts.findings:
@@ -269,6 +271,7 @@ class Campaign:
             events=self._tally.events,
             statement=self.statement,
             readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},
+            provoked=dict(sorted(self._tally.provoked.items())),
             effort=Effort(
                 dict(self._tally.measures.most_common()),
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},

@@ -60,6 +60,7 @@ def repeated(reports: Sequence[v.FrameworkReport], steady: Steady) -> v.Framewor
         events=sum(report.events for report in reports),
         warnings=tuple(dict.fromkeys(warning for report in reports for warning in report.warnings)),
         readings=_readings(reports),
+        provoked=dict(sum((Counter(report.provoked) for report in reports), Counter())),
         effort=_effort(reports),
         runs=len(reports),
         incomplete=incomplete,

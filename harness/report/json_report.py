@@ -163,6 +163,7 @@ class ReportEntry(Entry, frozen=True):
     selection: str = ""
     adapter_file: str = ""
     warnings: tuple[str, ...] = ()
+    provoked: dict[str, int] = {}
 
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -197,7 +198,7 @@ def _body(report: v.Report) -> dict[str, Any]:
         }
     assert isinstance(report, v.ToolChainReport)
     counts = {"scenarios": report.models, "events": report.facts, "runs": 1}
-    return {"incidents": (), "transitions": (), "readings": {}, **counts}
+    return {"incidents": (), "transitions": (), "readings": {}, "provoked": {}, **counts}
 
 
 def schema() -> dict[str, Any]:

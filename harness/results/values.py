@@ -223,6 +223,8 @@ class FrameworkReport(Report, frozen=True, kw_only=True):
     """The file that the adapter was loaded from; empty if it is not known."""
     warnings: tuple[str, ...] = ()
     """What the vendor should know of the adapter, a sentence each."""
+    provoked: dict[str, int] = {}
+    """How often bodies acted in a callback: by callback, operation that led there, and action."""
 
 
 SIDES: Mapping[str, tuple[str, str]] = {
