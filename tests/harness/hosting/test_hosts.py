@@ -381,7 +381,7 @@ def test_old_names_of_bundled_adapters_still_work(old: str, new: str) -> None:
         ("tcp://127.0.0.1", "write tcp://HOST:PORT"),
         ("tcp://host:port", "write tcp://HOST:PORT"),
         ("unix:", "write unix:/PATH"),
-        ("", "names no adapter"),
+        ("", "no ADAPTER is named"),
         ("a b:c", "names no adapter"),
     ],
 )
