@@ -1,0 +1,105 @@
+"""The Python reference framework with another service connector: one that is made of fragments (11.1.2.1)."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ucm_cts.adapters.contract import programming_model as pm
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.fragments import EndFragment, FragmentConnectors, FragmentLink
+
+
+class Channel:
+    """How the fragments of one link reach each other."""
+
+    server: pm.PortElementObject | None = None
+    is_broken = False
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.server is None or self.is_broken:
+            raise pm.UcmError("the server cannot be reached")
+        try:
+            return copy.deepcopy(self.server.call(method, copy.deepcopy(arguments)))
+        except pm.DeclaredException as error:
+            raise pm.DeclaredException(error.name, copy.deepcopy(error.fields)) from None
+
+
+class CallersEnd(pm.PortElementObject):
+    """What a client is connected to."""
+
+    def __init__(self, channel: Channel) -> None:
+        self.channel = channel
+
+    def exchange(self, value: int) -> int:
+        raise pm.UcmError("the port element has another interface")
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.channel.call(method, arguments)
+
+
+class End(pm.ComponentObject, pm.FragmentObject):
+    """The fragment at one end of a link, configured with the link's number."""
+
+    def __init__(self, channels: dict[str, Channel]) -> None:
+        self.channels = channels
+
+    def set_container_interface(self, container: pm.ContainerInterface) -> None: ...
+
+    def set_attribute(self, name: str, value: str) -> None:
+        assert name == "link"
+        self.channel = self.channels.setdefault(value, Channel())
+        self.element = CallersEnd(self.channel)
+
+    def on_init(self) -> None: ...
+
+    def on_startup(self, dependencies: Sequence[pm.PortConnection]) -> None: ...
+
+    def on_shutdown(self) -> None: ...
+
+    def on_remove(self) -> None: ...
+
+    def get_portElement(self, provided: str) -> pm.PortElementObject:
+        return self.element
+
+
+class ServersEnd(End):
+    """The fragment that is connected to the server; a link has one."""
+
+    def on_startup(self, dependencies: Sequence[pm.PortConnection]) -> None:
+        if self.channel.server is not None:
+            raise pm.UcmError("the link has a server already")
+        ((self.channel.server,),) = (dependency.to_port for dependency in dependencies)
+
+    def on_shutdown(self) -> None:
+        self.channel.server = None
+
+
+class FragmentsAdapter(FragmentConnectors, ReferenceAdapter):
+    """Everything but ``end_fragment`` and faults is the SDK's."""
+
+    end_fragments = {SERVICE_CONNECTOR: {}}
+
+    def create_runtime(self, implementations: Sequence[pm.Implementation]) -> Any:
+        self.manager = super().create_runtime(implementations)
+        self.channels: dict[str, Channel] = {}
+        return self.manager
+
+    def end_fragment(self, link: FragmentLink, role: str) -> EndFragment:
+        name = f"{role} of link {link.number}"
+        provides, requires = (("end",), ()) if role == "client" else ((), ("end",))
+        kind = End if role == "client" else ServersEnd
+        create: Callable[[], pm.ComponentObject] = lambda: kind(self.channels)
+        self.manager.implementations[name] = pm.Implementation(
+            name, provides, requires, ("link",), False, True, create, interfaces={"end": link.interface}
+        )
+        return EndFragment(name, "end")
+
+    def break_link(self, link: Any, where: str) -> None:
+        self.channels.setdefault(str(link.number), Channel()).is_broken = True
+
+    def mend_link(self, link: Any) -> None:
+        self.channels[str(link.number)].is_broken = False
