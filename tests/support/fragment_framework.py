@@ -1,4 +1,4 @@
-"""The Python reference framework with another service connector: one that is made of fragments (11.1.2.1)."""
+"""Connectors that are made of fragments (11.1.2.1): the Python reference framework with such a service connector; scenarios."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ import copy
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import programming_model as pm
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.fragments import EndFragment, FragmentConnectors, FragmentLink
 
@@ -81,7 +83,7 @@ class ServersEnd(End):
 class FragmentsAdapter(FragmentConnectors, ReferenceAdapter):
     """Everything but ``end_fragment`` and faults is the SDK's."""
 
-    end_fragments = {SERVICE_CONNECTOR: {}}
+    end_fragments = {s.SERVICE_CONNECTOR: {}}
 
     def create_runtime(self, implementations: Sequence[pm.Implementation]) -> Any:
         self.manager = super().create_runtime(implementations)
@@ -103,3 +105,39 @@ class FragmentsAdapter(FragmentConnectors, ReferenceAdapter):
 
     def mend_link(self, link: Any) -> None:
         self.channels[str(link.number)].is_broken = False
+
+
+SERVICE = d.Interface({"ask": d.Method((d.Parameter("a", "INOUT", d.Integer("ULONG")),))})
+
+
+def served(*steps: s.Step) -> s.Scenario:
+    """A client asks a server through a link; then ``steps``."""
+    ask = s.CallMethod("out", "ask", (7,))
+    components = {
+        "C": s.Declaration(("go",), ("out",), plan={"exchange": (ask,)}, ports={"out": "service"}),
+        "S": s.Declaration(("in",), ports={"in": "service"}, plan={"method": (s.Answer("ask"),)}),
+    }
+    before = (
+        s.AddComponent("S"),
+        s.AddComponent("C"),
+        s.Link(s.SERVICE_CONNECTOR, "service", "l"),
+        s.Attach("l", "server", "S", "in"),
+        s.Attach("l", "client", "C", "out"),
+        s.GetPortElement("C", "go", "go"),
+        s.Start(),
+        s.Invoke("go", 1),
+    )
+    return s.Scenario(components, (*before, *steps), 2000, {"service": SERVICE})
+
+
+def in_short(events: Sequence[t.Event]) -> list[Any]:
+    """Replies as results and whether an exception came, errors, numbers of members."""
+    found: list[Any] = []
+    for event in events:
+        if isinstance(event, t.Reply):
+            found.append((event.results, event.raised))
+        elif isinstance(event, t.Raise):
+            found.append(event.error)
+        elif isinstance(event, t.Return) and isinstance(event.value, tuple):
+            found.append(len(event.value))
+    return found

@@ -48,7 +48,7 @@ class Ids:
         return self._ids.get(number, self._unknown)
 
 
-class Members:
+class ContainerMembers:
     """The container interface of fragments (11.2.1.4), for a framework that has none in the shape of 12.10."""
 
     def __init__(self, adapter: Adapter, container: ContainerHandle) -> None:

@@ -7,13 +7,12 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from fragment_framework import FragmentsAdapter
+from fragment_framework import FragmentsAdapter, in_short, served
 from performing import answer
 
 from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.adapter import Adapter, NotOffered
 from ucm_cts.adapters.contract.programming_model import (
     Connectable,
@@ -26,7 +25,7 @@ from ucm_cts.adapters.contract.programming_model import (
 )
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.bodies import Methods, References, initialise, port_connections
-from ucm_cts.adapters.sdk.python.forwarding import ForwardingAdapter, Ids, Members
+from ucm_cts.adapters.sdk.python.forwarding import ContainerMembers, ForwardingAdapter, Ids
 from ucm_cts.adapters.sdk.python.policies import Policies, PortTrace
 
 
@@ -160,7 +159,7 @@ class Noted(FragmentObject):
 
 def test_first_calls_of_a_body_are_in_order() -> None:
     adapter = CrateAdapter()
-    members = Members(adapter, adapter.create_runtime(()))
+    members = ContainerMembers(adapter, adapter.create_runtime(()))
     body: Any = Noted()
     initialise(body, {"a": "1"}, members)
     assert body.calls == [("set_attribute", "a", "1"), members, ("on_init",)]
@@ -200,38 +199,10 @@ def test_policies_are_sorted() -> None:
         _ = Policies.of((s.Policy(s.ACTIVE, "in"), s.Policy(s.PROTECTED_PASSIVE))).execution
 
 
-SERVICE = d.Interface({"ask": d.Method((d.Parameter("a", "INOUT", d.Integer("ULONG")),))})
-
-
-def served(adapter: type[Adapter], *steps: s.Step) -> Sequence[t.Event]:
-    """The trace of a client that asks a server through a link, and of ``steps`` after that."""
-    ask = s.CallMethod("out", "ask", (7,))
-    components = {
-        "C": s.Declaration(("go",), ("out",), plan={"exchange": (ask,)}, ports={"out": "service"}),
-        "S": s.Declaration(("in",), ports={"in": "service"}, plan={"method": (s.Answer("ask"),)}),
-    }
-    before = (
-        s.AddComponent("S"),
-        s.AddComponent("C"),
-        s.Link(s.SERVICE_CONNECTOR, "service", "l"),
-        s.Attach("l", "server", "S", "in"),
-        s.Attach("l", "client", "C", "out"),
-        s.GetPortElement("C", "go", "go"),
-        s.Start(),
-        s.Invoke("go", 1),
-    )
-    traced = answer(s.Scenario(components, (*before, *steps), 2000, {"service": SERVICE}), adapter)
+def outcomes(adapter: type[Adapter], *steps: s.Step) -> list[Any]:
+    traced = answer(served(*steps), adapter)
     assert isinstance(traced, m.Traced), traced
-    return traced.events
-
-
-def in_short(events: Sequence[t.Event]) -> list[Any]:
-    """Replies and errors, and the number of members."""
-    return [
-        (e.results, e.raised) if isinstance(e, t.Reply) else e.error if isinstance(e, t.Raise) else len(e.value)  # type: ignore[arg-type]
-        for e in events
-        if isinstance(e, t.Reply | t.Raise) or (isinstance(e, t.Return) and isinstance(e.value, tuple))
-    ]
+    return in_short(traced.events)
 
 
 def test_connectors_made_of_fragments_behave_like_others() -> None:
@@ -251,7 +222,7 @@ def test_connectors_made_of_fragments_behave_like_others() -> None:
         s.Start(),
         s.Destroy(),
     )
-    events = in_short(served(FragmentsAdapter, *steps))
+    events = outcomes(FragmentsAdapter, *steps)
     assert events == [
         ((7,), False),
         2,
@@ -262,7 +233,7 @@ def test_connectors_made_of_fragments_behave_like_others() -> None:
         "NOT_FOUND",
         "UCM_ERROR",
     ]
-    others = in_short(served(ReferenceAdapter, *steps))
+    others = outcomes(ReferenceAdapter, *steps)
     assert others[:5] == events[:5], "up to the removal of a server, which is not in use there"
 
 
@@ -273,5 +244,5 @@ def test_ends_that_cannot_be_made_leave_no_fragment() -> None:
         s.Attach("l", "client", "C", "go"),
         s.Attach("l", "server", "C", "go"),
     )
-    events = in_short(served(FragmentsAdapter, *again, s.GetComponents()))
+    events = outcomes(FragmentsAdapter, *again, s.GetComponents())
     assert events == [((7,), False), "UCM_ERROR", "BAD_PARAMETER", "BAD_PARAMETER", 2]

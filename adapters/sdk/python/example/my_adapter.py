@@ -3,7 +3,7 @@
 from beans import Missing, Pod, Trouble
 
 from ucm_cts.adapters.contract.programming_model import FragmentObject, NotFound, PortConnection, UcmError
-from ucm_cts.adapters.sdk.python.forwarding import ForwardingAdapter, Members
+from ucm_cts.adapters.sdk.python.forwarding import ContainerMembers, ForwardingAdapter
 
 
 class BeansAdapter(ForwardingAdapter):
@@ -26,7 +26,7 @@ class BeansAdapter(ForwardingAdapter):
     def add_component(self, container, implementation, attributes):
         def give_container(bean):
             if isinstance(bean, FragmentObject):
-                bean.set_container_interface(Members(self, container))
+                bean.set_container_interface(ContainerMembers(self, container))
 
         return self.components.number(self.forward(container, "plant", implementation, attributes, give_container))
 
