@@ -11,7 +11,6 @@ import click
 from click.core import ParameterSource
 
 import ucm_cts
-from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
@@ -19,25 +18,19 @@ from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.compare_command import compare
 from ucm_cts.harness.cli.explanation import explanation, overview
 from ucm_cts.harness.cli.explore_command import explore
+from ucm_cts.harness.cli.framework_run import FrameworkRun, certify_framework
 from ucm_cts.harness.cli.results_command import results
 from ucm_cts.harness.cli.selftest_command import selftest
-from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.cli.toolchain_command import certify_toolchain, profiles_of
-from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
-from ucm_cts.harness.execution.repeating import repeated, steady_search
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
-from ucm_cts.harness.purposes.scripts import TestPurpose, read_scripts, to_scenario
-from ucm_cts.harness.purposes.selection import select
+from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
-from ucm_cts.harness.report.diagrams.sequence_text import failure_text, replay_text
-from ucm_cts.harness.report.write import prepare_folder, save_report
+from ucm_cts.harness.report.diagrams.sequence_text import failure_text, printed_text, replay_text
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean
-from ucm_cts.harness.results.known_failures import known_today
-from ucm_cts.harness.results.values import FrameworkReport
-from ucm_cts.harness.statement.applicability import purposes_for
-from ucm_cts.harness.statement.files import check_subject, stated_by
+from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.harness.statement.writing import write_statement, write_toolchain_statement
 from ucm_cts.harness.toolchains.commands.description import read_toolchain
 from ucm_cts.reference_models.monitor import Monitor
@@ -76,6 +69,16 @@ def cli() -> None:
     show_default=True,
     help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
 )
+@click.option(
+    "--explore",
+    type=options.DrawnScenarios(or_none=True),
+    default="3s",
+    show_default=True,
+    help="How long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s.",
+)
+@click.option("--failed-first", is_flag=True, help="Begin with what failed in the last run into the same --out.")
+@click.option("--resume", is_flag=True, help="Go on with the interrupted run in the same --out.")
+@click.option("--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement.")
 @click.pass_context
 def run(
     context: click.Context,
@@ -93,6 +96,10 @@ def run(
     memory: int,
     incident_time: float,
     systematic: int,
+    explore: options.Budget,
+    failed_first: bool,
+    resume: bool,
+    everything: bool,
 ) -> None:
     """Run a profile on ADAPTER, or on a tool chain, and write report.html, report.json and junit.xml.
 
@@ -102,54 +109,35 @@ def run(
     """
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     if toolchain is not None:
-        _refuse(context, ("adapter", "repeat", "in_process", "timeout", "memory", "incident_time", "systematic"))
+        _refuse(context, ("adapter", *OF_FRAMEWORKS))
         chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
-        certify_toolchain(toolchain, chosen, expression, out, known_failures, ics, drawn)
+        certify_toolchain(toolchain, chosen, expression, out, known_failures, ics, drawn, everything, failed_first)
     if profile in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
-    console = Output()
-    known = known_today(known_failures)
-    statement = stated_by(ics, adapter)
-    purposes = purposes_for(statement, profile, systematic)
-    if expression:
-        purposes = select(purposes, expression)
-        if not purposes:
-            raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
-    limits = Limits(timeout, memory, incident_seconds=incident_time)
-    endpoint = locate(adapter, in_process)
-    reports: list[FrameworkReport] = []
-    interrupted = False
-    cut_short = ""
-    with ends_like_interrupts():
-        while len(reports) < repeat and not (interrupted or cut_short):
-            which = f"run {len(reports) + 1} of {repeat}"
-            try:
-                with Driver(endpoint, drawn + len(reports), limits) as driver:
-                    if reports and not _is_of(driver.identity, reports[0]):
-                        cut_short = f"{which} was of another product, '{options.name_of(driver.identity)}'"
-                        continue
-                    if not reports:
-                        check_subject(statement, driver.identity, profile)
-                        options.greet(console, options.name_of(driver.identity), profile, drawn)
-                        prepare_folder(out)
-                    campaign = Campaign(driver, profile, known, statement)
-                    try:
-                        _check(campaign, purposes, console, f"{which}: " if repeat > 1 else "")
-                    except KeyboardInterrupt:
-                        interrupted = True
-                    if not (interrupted and reports):  # an interrupted run would look unstable
-                        reports.append(campaign.report())
-            except (HostUnavailable, WrongUse) as problem:
-                if not reports:
-                    raise
-                cut_short = f"{which} could not begin: {problem}"
-        try:
-            report = repeated(reports, steady_search(endpoint, limits, statement.ics))
-        except (HostUnavailable, KeyboardInterrupt) as problem:
-            interrupted = interrupted or isinstance(problem, KeyboardInterrupt)
-            report = repeated(reports, lambda failed, seed: None)
-        save_report(report, out)
-    options.leave_with(console, report, out, known, not expression, interrupted, cut_short)
+    certify_framework(
+        FrameworkRun(
+            adapter=adapter,
+            profile=profile,
+            expression=expression,
+            seed=drawn,
+            out=out,
+            known_failures=known_failures,
+            ics=ics,
+            repeat=repeat,
+            in_process=in_process,
+            limits=Limits(timeout, memory, incident_seconds=incident_time),
+            systematic=systematic,
+            explore=explore,
+            everything=everything,
+            failed_first=failed_first,
+            resume=resume,
+            is_seeded=seed is not None,
+        )
+    )
+
+
+OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "explore", "resume")
+"""Options of ``run`` that tool chains do not have."""
 
 
 def _is_given(context: click.Context, parameter: str) -> bool:
@@ -164,25 +152,6 @@ def _refuse(context: click.Context, parameters: Sequence[str]) -> None:
             raise WrongUse(
                 f"{name} is for frameworks behind adapters, and --toolchain names a tool chain; leave one out"
             )
-
-
-def _is_of(identity: Welcome, report: FrameworkReport) -> bool:
-    return (identity.product, identity.version) == (report.product, report.version)
-
-
-def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output, which: str = "") -> None:
-    with progress_of(console) as progress:
-        task = progress.add_task(f"{which}checking", total=len(purposes))
-        failing = 0
-        for checked in campaign.check(purposes):
-            failing += bool(checked.failures)
-            progress.update(task, advance=1, description=f"{which}{failing} failing, {_short(checked.purpose.id)}")
-        progress.update(task, description="confirming failures")
-        campaign.confirm()
-        if failing:
-            progress.update(task, description="shortening scenarios of failures")
-            for _ in campaign.shorten():
-                pass
 
 
 @cli.command()
@@ -241,14 +210,18 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
             f"{file} is a model and no scenario; the report shows the command that gives it to the tool chain again"
         )
     scripts = read_scripts(file)
+    endpoint = locate(adapter, in_process)
     monitor = Monitor(load_life_cycle(), stated_by(ics, adapter).ics)
     console = Output()
     failed = False
-    with ends_like_interrupts(), Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
-        for answer in driver.run((script.scenario, to_scenario(script)) for script in scripts):
+    with ends_like_interrupts(), Driver(endpoint, seed or 0, Limits(timeout)) as driver:
+        for script in scripts:
+            (answer,) = driver.run([(script.scenario, to_scenario(script))])
             execution = driver.revealed(answer)
             console.out(f"{execution.name} on {options.name_of(driver.identity)}\n", highlight=False)
             console.out(replay_text(execution), highlight=False)
+            if answer.printed.strip():
+                console.out(printed_text(answer.printed, file, adapter), highlight=False)
             if execution.incident is not None:
                 failed = True
                 text = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
@@ -279,7 +252,7 @@ def main() -> None:
         error.show()
         sys.exit(options.WRONG_USE)
     except (WrongUse, DocumentError, HostUnavailable) as error:
-        click.echo(f"ucm-cts: {error}", err=True)
+        click.echo(f"ucm-cts: {clean(str(error))}", err=True)
         sys.exit(options.WRONG_USE)
     except (click.exceptions.Abort, KeyboardInterrupt):
         click.echo("ucm-cts: interrupted", err=True)
@@ -287,7 +260,3 @@ def main() -> None:
     except Exception as error:  # noqa: BLE001 - the last resort: a user sees one line, not a traceback
         click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
         sys.exit(options.HARNESS_FAILED)
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 50 else text[:47] + "..."

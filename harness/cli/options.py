@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import difflib
 import math
+import re
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
@@ -12,10 +15,13 @@ import click
 
 import ucm_cts
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PROFILES
-from ucm_cts.harness.catalogue.requirements import in_the_making
+from ucm_cts.harness.catalogue.requirements import in_the_making, load_requirements
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.execution.driver import Limits
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.purposes.selection import words_of
 from ucm_cts.harness.report.summary import summary
+from ucm_cts.harness.report.write import Saved
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import KnownFailure, stale, succeeded
 from ucm_cts.harness.results.values import Report
@@ -26,7 +32,10 @@ F = TypeVar("F", bound=Callable[..., Any])
 CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
 """Exit statuses; NOT_CONFORMANT includes inconclusive runs."""
 
-DEFAULT_ADAPTER = "reference-cpp"
+
+_UNITS = {"s": 1, "m": 60, "h": 3600}
+MOST_SECONDS = 86_400
+"""The longest time that an option can give."""
 
 
 class Seconds(click.FloatRange):
@@ -34,9 +43,41 @@ class Seconds(click.FloatRange):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         seconds = super().convert(value, param, ctx)
+        if seconds > MOST_SECONDS and math.isfinite(seconds):
+            self.fail(f"'{value}' is longer than a day; give at most {MOST_SECONDS} seconds.", param, ctx)
         if not math.isfinite(seconds):
             self.fail(f"'{value}' is no number of seconds.", param, ctx)
         return seconds
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What drawing scenarios may cost: a number of seconds, or of scenarios."""
+
+    amount: float
+    is_time: bool = True
+
+    def spent(self, scenarios: int, seconds: float) -> float:
+        """The part of ``amount`` that is used up."""
+        return seconds if self.is_time else scenarios
+
+
+class DrawnScenarios(click.ParamType):  # type: ignore[type-arg] # generic since click 8.2
+    """A budget as people write it. It may be nothing if ``or_none``."""
+
+    name = "budget"
+
+    def __init__(self, or_none: bool = False) -> None:
+        self._or_none = or_none
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Budget:
+        match = re.fullmatch(r"(\d{1,9})(s|m|h|scenarios)|(\d{1,6}\.\d{1,3})(s|m|h)", str(value))
+        if match is None or not (self._or_none or float(match[1] or match[3])):
+            self.fail(
+                f"'{value}' is no budget; write a time or a number of scenarios: 60s, 5m, 2h, 500scenarios.", param, ctx
+            )
+        amount, unit = float(match[1] or match[3]), match[2] or match[4]
+        return Budget(amount * _UNITS[unit]) if unit in _UNITS else Budget(amount, is_time=False)
 
 
 class Folder(click.Path):
@@ -70,7 +111,7 @@ def out_file(default: str, text: str = "") -> Callable[[F], F]:
     return click.option("--out", type=kind, default=Path(default), show_default=True, help=text or None)
 
 
-adapter_argument = click.argument("adapter", default=DEFAULT_ADAPTER, required=False)
+adapter_argument = click.argument("adapter", default="", required=False)
 profile_option = click.option("--profile", type=Profile(PROFILES), default="container", show_default=True)
 framework_profile_option = click.option(
     "--profile", type=Profile(FRAMEWORK_PROFILES), default="container", show_default=True
@@ -88,6 +129,21 @@ timeout_option = click.option(
 )
 
 
+def nothing_selected(expression: str, candidates: Iterable[str], what: str) -> WrongUse:
+    """``-k`` selected none of ``what``, though there are ``candidates``."""
+    words = words_of(expression)
+    near = [name for word in words for name in difflib.get_close_matches(word, [*dict.fromkeys(candidates)], 3, 0.5)]
+    reasons = [
+        f"; {r.id} is not tested: {r.untestable or r.pending}"
+        for r in load_requirements()
+        if r.id.lower() in words and (r.untestable or r.pending)
+    ]
+    hint = f"; near it: {', '.join(dict.fromkeys(near))}" if near else ""
+    return WrongUse(
+        f"no {what} matches -k '{expression}'{''.join(reasons) or hint}; try a requirement, a clause or an operation"
+    )
+
+
 def name_of(identity: Identity) -> str:
     """Product and version, on one line."""
     return one_line(f"{identity.product} {identity.version}", 80)
@@ -101,23 +157,29 @@ def greet(console: Output, what: str, profile: str, seed: int) -> None:
 def leave_with(
     console: Output,
     report: Report,
-    out: Path,
+    saved: Saved,
     known: Sequence[KnownFailure],
-    is_whole: bool,
-    interrupted: bool,
-    cut_short: str = "",
+    everything: bool = False,
 ) -> NoReturn:
-    """Print the end of a run, and end with its status. If the run ``is_whole``, ``known`` failures that are gone are named."""
-    console.print(summary(report, out))
-    outdated = stale(known, report.requirements) if is_whole and not interrupted else []
+    """Print the end of a run, and end with its status. After a whole run, ``known`` failures that are gone are named."""
+    lost = saved.place is None
+    whole = lost or not console.is_terminal
+    console.print(summary(report, saved.place, whole, everything or lost), soft_wrap=whole or everything)
+    is_partial = bool(report.selection or report.incomplete)
+    outdated = [] if is_partial else stale(known, report.requirements)
     for entry in outdated:
         console.say(f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it")
-    if interrupted:
+    if report.incomplete.startswith("interrupted"):
         console.print("interrupted: the report holds what was measured so far")
-    if cut_short:
-        console.say(f"{cut_short}; the report holds the runs before")
-    failed = outdated or interrupted or cut_short or not succeeded(report)
-    leave(console, NOT_CONFORMANT if failed else CONFORMANT, f"; the report is in {out}")
+    elif report.incomplete:
+        console.say(f"{report.incomplete}; the report holds the runs before")
+    if saved.problem:
+        console.file.flush()
+        where = "no folder took it, and this summary is all that is left" if lost else f"it is in '{saved.place}'"
+        click.echo(f"ucm-cts: the report cannot be written: {saved.problem}; {where}", err=True)
+        sys.exit(HARNESS_FAILED)
+    failed = outdated or report.incomplete or not succeeded(report)
+    leave(console, NOT_CONFORMANT if failed else CONFORMANT, f"; the report is in {saved.place}")
 
 
 def leave(console: Output, status: int, remainder: str = "") -> NoReturn:

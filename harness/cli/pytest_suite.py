@@ -22,7 +22,7 @@ from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.report.diagrams.sequence_text import failure_text
 from ucm_cts.harness.report.order import not_followed
-from ucm_cts.harness.report.write import prepare_folder, save_report
+from ucm_cts.harness.report.write import keep_report, report_folder
 from ucm_cts.harness.results.known_failures import known_today, stale, waiver_for
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, FrameworkReport
@@ -88,20 +88,34 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
             profile = config.getoption("--iut-profile")
             check_subject(statement, driver.identity, profile)
             running = Campaign(driver, profile, known, statement)
-            if out:
-                prepare_folder(Path(out))
+            folder = cleanup.enter_context(report_folder(Path(out))) if out else None
         except (WrongUse, DocumentError, HostUnavailable) as error:
             pytest.exit(f"ucm-cts: {error}", returncode=2)
         yield running
-        running.confirm()
-        if out:
+        interrupted = _is_interrupted(request.session)
+        if not interrupted:
+            running.confirm()
+        if out and not interrupted:
             for _ in running.shorten():
                 pass
-        report = running.report()
+        report = running.report(_ended_early(request.session, len(running.checked)))
         config.stash[_UNDECIDED] = _undecided(running, report)
         config.stash[_ADVICE] = [f"{r.id}: {r.title}" for r in not_followed(report.requirements)]
-        if out:
-            save_report(report, Path(out))
+        if folder is not None:
+            saved = keep_report(report, folder)
+            if saved.problem:
+                where = f"it is in '{saved.place}'" if saved.place is not None else "no folder took it"
+                config.stash[_UNDECIDED].append(f"the report cannot be written: {saved.problem}; {where}")
+
+
+def _ended_early(session: pytest.Session, done: int) -> str:
+    """Why the session ended before its end, empty if it did not."""
+    early = "interrupted" if _is_interrupted(session) else session.shouldfail or session.shouldstop
+    return f"{early} after {done} test purposes" if early else ""
+
+
+def _is_interrupted(session: pytest.Session) -> bool:
+    return session.exitstatus == pytest.ExitCode.INTERRUPTED
 
 
 _UNDECIDED = pytest.StashKey[list[str]]()

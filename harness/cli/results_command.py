@@ -14,6 +14,7 @@ from ucm_cts.harness.report.comparison import read_report
 from ucm_cts.harness.report.published import by_product, published, read_published, to_json
 from ucm_cts.harness.report.published_pages import overview, product_page, table
 from ucm_cts.harness.report.write import prepare_folder, write_whole
+from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.selftest.kill_record import KillRecord, file_name, read_matrix, read_record, to_lines
 
 DETECTION, PAGE = "detection", "README.md"
@@ -51,7 +52,11 @@ def _keep(file: Path, out: Path) -> Path:
         matrix = read_matrix(file)
         path, content = out / DETECTION / file_name(matrix), to_lines(matrix)
     else:
-        result = published(read_report(file))
+        report = read_report(file)
+        if report.incomplete or report.selection:
+            what = f"incomplete ({one_line(report.incomplete)})" if report.incomplete else "of a selection (-k)"
+            raise WrongUse(f"'{file}' is {what}; only reports of whole runs are published")
+        result = published(report)
         path, content = out / result.folder / f"{result.profile}.json", to_json(result)
     prepare_folder(path.parent)
     write_whole(path, content)

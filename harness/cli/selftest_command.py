@@ -10,15 +10,16 @@ from pathlib import Path
 import click
 from rich.table import Table
 
-from ucm_cts.harness.cli.options import out_folder
+from ucm_cts.harness.cli.options import HARNESS_FAILED, out_folder
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.report.write import prepare_folder
+from ucm_cts.harness.report.out_folder import OutFolder
+from ucm_cts.harness.report.write import keep_files
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.selftest.cheat_trials import all_cheats
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult
 from ucm_cts.harness.selftest.models_killing import all_models
-from ucm_cts.harness.selftest.page import rows, write_matrix
+from ucm_cts.harness.selftest.page import MATRIX_FILES, matrix_files, rows
 from ucm_cts.harness.selftest.running import Result, SelfTest
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, all_subjects
 from ucm_cts.harness.selftest.trials import Subject, Thoroughness, all_mutants, all_variants, names
@@ -86,12 +87,17 @@ def selftest(
         raise WrongUse("--quick leaves conformant variants out, and no other subject is named; leave out --quick")
     if not toolchains and not any(isinstance(s, Subject) and s.is_native for s in subjects.values()):
         console.print("native mutants are left out: their executable comes with an installed ucm-cts, and is not here")
-    prepare_folder(out)
-    interrupted = _conduct(conduct, console)
-    write_matrix(conduct.matrix, out)
+    with ends_like_interrupts() as interrupts, OutFolder(out, MATRIX_FILES) as folder:
+        interrupted = _conduct(conduct, console)
+        with interrupts.held():
+            saved = keep_files(matrix_files(conduct.matrix), folder, MATRIX_FILES)
     console.print(summary(conduct.matrix))
     _print_wrong(conduct.matrix, console)
-    console.say(f"{out / 'matrix.html'} shows the kill matrix")
+    if saved.place is not None:
+        console.say(f"{saved.place / 'matrix.html'} shows the kill matrix")
+    if saved.problem:
+        click.echo(f"ucm-cts: the kill matrix cannot be written: {saved.problem}", err=True)
+        sys.exit(HARNESS_FAILED)
     if interrupted:
         console.print("interrupted: the matrix holds what was found so far")
     sys.exit(0 if conduct.matrix.is_proved and not interrupted else 1)
@@ -112,7 +118,7 @@ def _list(
 def _conduct(conduct: SelfTest, console: Output) -> bool:
     """Run all subjects. Returns True if interrupted."""
     done = wrong = 0
-    with ends_like_interrupts(), progress_of(console) as progress:
+    with progress_of(console) as progress:
         total = conduct.number
         task = progress.add_task("examining", total=total)
 

@@ -6,13 +6,18 @@ import io
 import os
 import signal
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from threading import Event, Thread
 from types import FrameType
-from typing import IO, NoReturn, cast
+from typing import IO, cast
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
+
+LINE_EVERY = 10
+"""Off a terminal, progress is a line each so many seconds."""
 
 _PLAIN = {
     ord(fine): plain
@@ -85,29 +90,85 @@ class _Stream(io.TextIOBase):
             os.dup2(os.open(os.devnull, os.O_WRONLY), self._target.fileno())
 
 
+class Interrupts:
+    """Requests to end. The first one raises ``KeyboardInterrupt``, unless they are held; later ones are ignored."""
+
+    def __init__(self) -> None:
+        self.came = False
+        self._held = 0
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Requests are only noted, in ``came``: what is written here is not lost."""
+        self._held += 1
+        try:
+            yield
+        finally:
+            self._held -= 1
+
+    @contextmanager
+    def permitted(self) -> Iterator[None]:
+        """Within what is held: a request interrupts again, also one that came before."""
+        if self.came:
+            raise KeyboardInterrupt
+        before, self._held = self._held, 0
+        try:
+            yield
+        finally:
+            self._held = before
+
+    def note(self, number: int, frame: FrameType | None) -> None:
+        """The handler of signals."""
+        first, self.came = not self.came, True
+        if first and not self._held:
+            raise KeyboardInterrupt
+
+
 @contextmanager
-def ends_like_interrupts() -> Iterator[None]:
-    """Treat a request to end, or a closed terminal, as one interrupt; later ones are ignored."""
-    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
+def ends_like_interrupts() -> Iterator[Interrupts]:
+    """Treat a request to end, or a closed terminal, as an interrupt. After the first one, all are ignored until the process ends."""
+    interrupts = Interrupts()
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     ours = [number for number, handler in before.items() if handler is not signal.SIG_IGN]
-
-    def interrupt(number: int, frame: FrameType | None) -> NoReturn:
-        for each in ours:
-            signal.signal(each, signal.SIG_IGN)
-        raise KeyboardInterrupt
-
     for number in ours:
-        signal.signal(number, interrupt)
+        signal.signal(number, interrupts.note)
     try:
-        yield
+        yield interrupts
     finally:
         for number in ours:
-            signal.signal(number, before[number])
+            signal.signal(number, signal.SIG_IGN if interrupts.came else before[number])
 
 
 def progress_of(console: Output, *columns: ProgressColumn) -> Progress:
-    """A progress bar with ``columns`` behind it, by default the number of finished ones; it disappears at the end."""
+    """A progress bar with ``columns`` behind it, by default the number of finished ones; it disappears at the end.
+
+    Off a terminal it is a line each ``LINE_EVERY`` seconds.
+    """
     behind = columns or (MofNCompleteColumn(), TimeElapsedColumn())
-    return Progress(
-        TextColumn("{task.description}", markup=False), BarColumn(), *behind, console=console, transient=True
-    )
+    bar = Progress if console.is_terminal else _Lines
+    return bar(TextColumn("{task.description}", markup=False), BarColumn(), *behind, console=console, transient=True)
+
+
+class _Lines(Progress):
+    """Progress as lines."""
+
+    _ended: Event | None = None
+
+    def start(self) -> None:
+        """Begin to print."""
+        self._ended, began = Event(), time.monotonic()
+        Thread(target=self._print, args=(self._ended, began), daemon=True).start()
+
+    def stop(self) -> None:
+        """Print no more."""
+        if self._ended is not None:
+            self._ended.set()
+
+    def _print(self, ended: Event, began: float) -> None:
+        while not ended.wait(LINE_EVERY):
+            for task in self.tasks:
+                of = f"{task.completed:.0f} of {task.total:.0f}, " if task.total else ""
+                self.console.print(
+                    f"{time.monotonic() - began:.0f} s: {of}{task.description}", markup=False, soft_wrap=True
+                )
+                self.console.file.flush()

@@ -5,14 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NoReturn
 
-from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
-from ucm_cts.harness.cli.options import greet, leave_with, name_of
-from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.cli.last_run import failed_in
+from ucm_cts.harness.cli.options import greet, leave_with, name_of, nothing_selected
+from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.report.write import prepare_folder, save_report
+from ucm_cts.harness.purposes.selection import words_of
+from ucm_cts.harness.report.write import keep_report, report_folder
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import known_today
 from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.results.tally import ended_early, of_selection
 from ucm_cts.harness.statement.files import check_subject, read_statement
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.commands.description import ToolChain, read_toolchain
@@ -22,11 +26,19 @@ from ucm_cts.harness.toolchains.renaming import Renaming
 
 
 def certify_toolchain(
-    path: Path, profile: str, expression: str, out: Path, known_failures: Path | None, ics: Path | None, seed: int
+    path: Path,
+    profile: str,
+    expression: str,
+    out: Path,
+    known_failures: Path | None,
+    ics: Path | None,
+    seed: int,
+    everything: bool = False,
+    failed_first: bool = False,
 ) -> NoReturn:
     """Run ``profile`` on the tool chain that the file at ``path`` describes, write the report to ``out``, and end.
 
-    Raises ``WrongUse`` and ``DocumentError``.
+    The summary lists ``everything`` on request. Raises ``WrongUse`` and ``DocumentError``.
     """
     if profile not in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
@@ -39,25 +51,36 @@ def certify_toolchain(
     check_subject(statement, toolchain, profile)
     processor = CommandLine(toolchain)
     examination = examination_for(profile, statement, Renaming(seed, toolchain.dialect), expression, command)
+    ids = [r.id for r in load_requirements() if r.profile in PARTS[profile] and not r.untestable]
+    asked = {id_ for id_ in ids if any(word in id_.lower() for word in words_of(expression))}
+    names = [name for name, _ in examination.models]
+    if expression and not asked and not any(word in name.lower() for word in words_of(expression) for name in names):
+        raise nothing_selected(expression, [*ids, *names], "model")
     if not examination.models:
-        raise WrongUse(f"no model matches -k '{expression}'; try a requirement or a part of its id")
+        raise nothing_selected(expression, ids, "model")
     console = Output()
-    greet(console, name_of(toolchain), profile, seed)
-    prepare_folder(out)
-    campaign = ToolChainCampaign(
-        processor,
-        examination,
-        (toolchain.product, toolchain.version),
-        profile,
-        statement,
-        known,
-        source=str(path),
-        seed=seed,
-    )
-    interrupted = _conduct(campaign, len(examination.models), console)
-    report = campaign.report()
-    save_report(report, out)
-    leave_with(console, report, out, known, not expression, interrupted)
+    with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(out) as folder:
+        greet(console, name_of(toolchain), profile, seed)
+        campaign = ToolChainCampaign(
+            processor,
+            examination,
+            (toolchain.product, toolchain.version),
+            profile,
+            statement,
+            known,
+            source=str(path),
+            seed=seed,
+            first=failed_in(out, console).models if failed_first else (),
+        )
+        incomplete = _conduct(campaign, len(examination.models), console, interrupts)
+        if not campaign.is_judged:
+            campaign.judge()
+        for warning in campaign.warnings():
+            console.say(f"warning: {warning}")
+        report = ended_early(campaign.report(), incomplete)
+        if expression:
+            report = of_selection(report, expression, asked | campaign.asked_by(words_of(expression)))
+        leave_with(console, report, keep_report(report, folder), known, everything)
 
 
 def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:
@@ -68,21 +91,20 @@ def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:
     return profiles
 
 
-def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> bool:
-    """Process all models, judge and confirm. Returns True if interrupted."""
-    with ends_like_interrupts(), progress_of(console) as progress:
+def _conduct(campaign: ToolChainCampaign, models: int, console: Output, interrupts: Interrupts) -> str:
+    """Process all models, judge and confirm. Returns why that ended early, empty if it did not."""
+    done = 0
+    with progress_of(console) as progress:
         task = progress.add_task("asking", total=models)
         try:
-            for name in campaign.process():
-                progress.update(task, advance=1, description=f"asking {one_line(name, 40)}")
+            with interrupts.permitted():
+                for name in campaign.process():
+                    done += 1
+                    progress.update(task, advance=1, description=f"asking {one_line(name, 40)}")
+                progress.update(task, description="confirming failures")
+                campaign.judge()
+                for _ in campaign.confirm():
+                    pass
         except KeyboardInterrupt:
-            campaign.judge()
-            return True
-        campaign.judge()
-        progress.update(task, description="confirming failures")
-        try:
-            for _ in campaign.confirm():
-                pass
-        except KeyboardInterrupt:
-            return True
-    return False
+            return f"interrupted after {done} of {models} models"
+    return ""

@@ -11,6 +11,7 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Circumstances, Driver, Limits
 from ucm_cts.harness.hosting.locate import Endpoint
 from ucm_cts.harness.results import values as v
+from ucm_cts.harness.results.incident_causes import DistinctIncidents
 from ucm_cts.harness.results.tally import cause_of, overall
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
@@ -46,19 +47,23 @@ def repeated(reports: Sequence[v.FrameworkReport], steady: Steady) -> v.Framewor
     requirements = tuple(
         _result(results, reports, steady) for results in zip(*(r.requirements for r in reports), strict=True)
     )
-    incidents = tuple(incident for report in reports for incident in report.incidents)
+    incidents = _incidents(reports)
+    incomplete = next((report.incomplete for report in reports if report.incomplete), "")
     return msgspec.structs.replace(
         first,
-        verdict=overall(requirements, incidents),
+        verdict=overall(requirements, incidents, incomplete),
         requirements=requirements,
         incidents=incidents,
         transitions=tuple(map(_transition, zip(*(r.transitions for r in reports), strict=True))),
         seconds=round(sum(report.seconds for report in reports), 3),
         scenarios=sum(report.scenarios for report in reports),
         events=sum(report.events for report in reports),
+        warnings=tuple(dict.fromkeys(warning for report in reports for warning in report.warnings)),
         readings=_readings(reports),
+        provoked=dict(sum((Counter(report.provoked) for report in reports), Counter())),
         effort=_effort(reports),
         runs=len(reports),
+        incomplete=incomplete,
     )
 
 
@@ -68,13 +73,14 @@ def _result(
     """The verdict that all runs agree on, or that it is unstable."""
     verdicts = Counter(result.verdict for result in results)
     exercised = sum(result.exercised for result in results)
+    seconds = round(sum(result.seconds for result in results), 3)
     worst = next(
         (result for result in results if result.verdict == "fail"),
         max(results, key=lambda result: len(result.findings)),
     )
     if len(verdicts) == 1:
         findings = _joined(results)
-        return msgspec.structs.replace(worst, exercised=exercised, findings=findings)
+        return msgspec.structs.replace(worst, exercised=exercised, findings=findings, seconds=seconds)
     counts = ", ".join(f"{verdict} in {number}" for verdict, number in verdicts.most_common())
     reason = f"unstable: of {len(results)} runs with other seeds {counts}"
     kept = [r.seed for r, result in zip(reports, results, strict=True) if result.verdict == "pass"][:SEEDS]
@@ -88,7 +94,9 @@ def _result(
     findings = tuple(
         msgspec.structs.replace(failed, unstable=reason, evidence=with_steady(failed)) for failed in _joined(results)
     )
-    return msgspec.structs.replace(worst, verdict="inconclusive", exercised=exercised, findings=findings, reason=reason)
+    return msgspec.structs.replace(
+        worst, verdict="inconclusive", exercised=exercised, findings=findings, reason=reason, seconds=seconds
+    )
 
 
 def _joined(results: Sequence[v.RequirementResult]) -> tuple[v.ReportedFinding, ...]:
@@ -97,8 +105,20 @@ def _joined(results: Sequence[v.RequirementResult]) -> tuple[v.ReportedFinding, 
     for failed in (failed for result in results for failed in result.findings):
         cause = cause_of(failed.finding)
         before = known.get(cause, msgspec.structs.replace(failed, occurrences=0))
-        known[cause] = msgspec.structs.replace(before, occurrences=before.occurrences + failed.occurrences)
+        known[cause] = msgspec.structs.replace(
+            before,
+            occurrences=before.occurrences + failed.occurrences,
+            explains=tuple(sorted({*before.explains, *failed.explains})),
+        )
     return tuple(known.values())
+
+
+def _incidents(reports: Sequence[v.FrameworkReport]) -> tuple[v.IncidentReport, ...]:
+    """Each cause once, with all its occurrences."""
+    distinct = DistinctIncidents()
+    for incident in (incident for report in reports for incident in report.incidents):
+        distinct.add_report(incident)
+    return distinct.reports
 
 
 def _transition(rows: Sequence[v.TransitionResult]) -> v.TransitionResult:

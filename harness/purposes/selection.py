@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, load_requirements
@@ -11,16 +11,24 @@ from ucm_cts.harness.purposes.data.scenarios import data_purposes
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.derived.messages import message_purposes
-from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
+from ucm_cts.harness.purposes.derived.schedules import crowd_purposes, overlap_purposes
 from ucm_cts.harness.purposes.derived.services import service_purposes
 from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
 from ucm_cts.harness.purposes.probes import load_probe_types
+from ucm_cts.harness.purposes.provocations.boundaries import boundary_purposes
+from ucm_cts.harness.purposes.provocations.contention import contention_purposes, service_contention_purposes
+from ucm_cts.harness.purposes.provocations.core_boundaries import core_boundary_purposes
+from ucm_cts.harness.purposes.provocations.later_use import later_use_purposes
+from ucm_cts.harness.purposes.provocations.purposes import duration_purposes, provocation_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
 from ucm_cts.harness.purposes.systematic.purposes import systematic_purposes
 from ucm_cts.harness.purposes.tables import purposes_of
 
 _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     overlap_purposes,
+    crowd_purposes,
+    service_contention_purposes,
+    core_boundary_purposes,
     functools.partial(purposes_of, "execution_policies"),
     message_purposes,
     service_purposes,
@@ -70,10 +78,36 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         if script.exercises[0] in clauses
     ]
     combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
-    return (*scripted, *generated_purposes(load_life_cycle()), *purposes_of("start"), *unforeseen_purposes(), *combined)
+    return (
+        *scripted,
+        *generated_purposes(load_life_cycle()),
+        *purposes_of("start"),
+        *unforeseen_purposes(),
+        *provocation_purposes(),
+        *duration_purposes(),
+        *boundary_purposes(),
+        *later_use_purposes(),
+        *contention_purposes(),
+        *combined,
+    )
 
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
     """The purposes whose id, clause or requirements contain one of the words of ``expression`` (separated by ``or``)."""
-    words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
+    words = words_of(expression)
     return tuple(p for p in purposes if any(w in " ".join((p.id, p.clause, *p.requirements)).lower() for w in words))
+
+
+def asked_by(purposes: Iterable[TestPurpose], expression: str) -> frozenset[str]:
+    """The requirements that ``expression`` asks for: all of a purpose whose id or clause it names, else those that it names."""
+    words = words_of(expression)
+    asked: set[str] = set()
+    for purpose in purposes:
+        whole = any(word in part.lower() for word in words for part in (purpose.id, purpose.clause))
+        asked.update(r for r in purpose.requirements if whole or any(word in r.lower() for word in words))
+    return frozenset(asked)
+
+
+def words_of(expression: str) -> list[str]:
+    """The words of ``expression``, in small letters."""
+    return [word.strip().lower() for word in expression.split(" or ") if word.strip()]

@@ -18,6 +18,7 @@ from ucm_cts.harness.catalogue.requirements import Level
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.json_report import FindingEntry, ReportEntry, RequirementEntry
 from ucm_cts.harness.report.order import clause_key
+from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.tally import overall
 
 MOST = 12
@@ -139,7 +140,7 @@ def _contradiction(report: ReportEntry) -> str:
             return f"{entry.id} is '{entry.verdict}', against its findings"
         if entry.verdict == "pass" and not entry.exercised:
             return f"{entry.id} is 'pass' and was never exercised"
-    due = overall(report.requirements, report.incidents)
+    due = overall(report.requirements, report.incidents, report.incomplete)
     return "" if report.verdict == due else f"says '{report.verdict}', but what it holds is '{due}'"
 
 
@@ -169,6 +170,16 @@ def compare(paths: Sequence[Path]) -> Comparison:
         raise WrongUse(f"{len(paths)} report(s) cannot be compared; name 2 to {MOST} files report.json")
     columns = tuple(Column(path, read_report(path)) for path in paths)
     held = [{entry.id: entry for entry in column.report.requirements} for column in columns]
+    for number, column in enumerate(columns):
+        if column.report.incomplete:
+            why = f"its run is incomplete ({one_line(column.report.incomplete)})"
+            raise WrongUse(f"'{column.path}' cannot be compared: {why}; run it again to its end")
+        others = set[str]().union(*held[:number], *held[number + 1 :])
+        if not others & held[number].keys():
+            profile = one_line(column.report.profile, 40)
+            raise WrongUse(
+                f"'{column.path}' (profile {profile}) has no requirement in common with the others; compare runs of one profile"
+            )
     known = {id_: entry for entries in reversed(held) for id_, entry in entries.items()}
     rows = [
         Row(id_, entry.clause, entry.title, entry.level, tuple(entries.get(id_) for entries in held))

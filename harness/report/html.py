@@ -10,7 +10,20 @@ from dataclasses import dataclass
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.framework_body import TraceShown, framework_body, trace_shown
-from ucm_cts.harness.report.order import VERDICTS, Shown, clause_key, count, counted, not_followed, roots, shown, to_fix
+from ucm_cts.harness.report.order import (
+    VERDICTS,
+    Fix,
+    Shown,
+    clause_key,
+    count,
+    counted,
+    failed_first,
+    not_followed,
+    of_same_causes,
+    shown,
+    sides,
+    to_fix,
+)
 from ucm_cts.harness.report.page import part, rendered
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
@@ -61,14 +74,17 @@ def to_html(
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     readings = report.readings if isinstance(report, v.FrameworkReport) else {}
     reported = {result.id for result in report.requirements}
+    fixes = to_fix(report)
     return rendered(
         "report.html.jinja",
         report=report,
         counts=count(report.requirements),
         verdicts=VERDICTS,
-        to_fix=roots(to_fix(report.requirements)),
+        to_fix=fixes,
+        same_cause=len(of_same_causes(report)),
+        sides=sides(report),
         not_followed=not_followed(report.requirements),
-        items=_items(report, catalogue, interpretations),
+        items=_items(report, fixes, catalogue, interpretations),
         untestable=sorted(
             (entry for entry in catalogue if entry.untestable and entry.id not in reported),
             key=lambda entry: (clause_key(entry.clause), entry.id),
@@ -83,12 +99,14 @@ def to_html(
     )
 
 
-def _items(report: v.Report, catalogue: Sequence[Requirement], interpretations: Mapping[str, str]) -> list[Item]:
+def _items(
+    report: v.Report, fixes: Sequence[Fix], catalogue: Sequence[Requirement], interpretations: Mapping[str, str]
+) -> list[Item]:
     known = {requirement.id: requirement for requirement in catalogue}
     left = BUDGET
     items = {}
     # the budget goes to what should be fixed first
-    for result in [*to_fix(report.requirements), *(r for r in report.requirements if r.verdict != "fail")]:
+    for result in failed_first(report.requirements, fixes):
         requirement = known.get(result.id) or Requirement(result.id, result.clause, result.title, result.level, "")
         causes = []
         for number, failed in enumerate(shortest_first(result.findings)):

@@ -21,7 +21,6 @@ EVENTS = 50
 TRACE = 500
 """The number of events that are written of the end of an unstable finding's trace."""
 
-
 OUTPUT = 4_000
 """The most characters that are written of what a command printed."""
 
@@ -50,6 +49,7 @@ class FindingEntry(Entry, frozen=True):
     ``model`` is the file of a tool chain's model, ``command`` the command that was given it, ``status`` its exit status,
     ``output`` what it printed, and ``place`` the wrong place in a generated file.
     ``trace`` is a trace of an unstable finding, ``steady`` one of the same scenario without the finding, if there is one.
+    ``explains``: other requirements that were broken after it in the same scenarios.
     """
 
     rule: str
@@ -68,6 +68,7 @@ class FindingEntry(Entry, frozen=True):
     place: str = ""
     trace: tuple[Event, ...] = ()
     steady: tuple[Event, ...] = ()
+    explains: tuple[str, ...] = ()
 
 
 class RequirementEntry(Entry, frozen=True):
@@ -76,6 +77,7 @@ class RequirementEntry(Entry, frozen=True):
     ``caused_by`` is a requirement from whose violation all its failures may follow, empty if there is none.
     ``decides``: whether it decides the verdict of the run; a recommendation (level ``should``) does not.
     ``derived``: why it holds although the text does not say it; empty if the text says it.
+    ``seconds`` were spent on scenarios that are to exercise it.
     """
 
     id: str
@@ -89,10 +91,14 @@ class RequirementEntry(Entry, frozen=True):
     caused_by: str = ""
     decides: bool = True
     derived: str = ""
+    seconds: float = 0.0
 
 
 class IncidentEntry(Entry, frozen=True):
-    """A scenario that broke the framework's host."""
+    """A cause for which scenarios broke the framework's host.
+
+    ``occurrences`` counts the scenarios, ``scenario`` is the shortest one, ``requirements`` are those that they were to exercise.
+    """
 
     kind: str
     detail: str
@@ -100,6 +106,8 @@ class IncidentEntry(Entry, frozen=True):
     reproduced: bool
     scenario: str
     replay: str
+    occurrences: int = 1
+    requirements: tuple[str, ...] = ()
 
 
 class TransitionEntry(Entry, frozen=True):
@@ -125,7 +133,12 @@ class StatementEntry(Entry, frozen=True):
 
 
 class ReportEntry(Entry, frozen=True):
-    """The whole of ``report.json``."""
+    """The whole of ``report.json``.
+
+    ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
+    empty after a run of everything. ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are
+    what its vendor should know of it.
+    """
 
     product: str
     version: str
@@ -146,6 +159,11 @@ class ReportEntry(Entry, frozen=True):
     measures: dict[str, int]
     seconds_by_clause: dict[str, float]
     runs: int
+    incomplete: str = ""
+    selection: str = ""
+    adapter_file: str = ""
+    warnings: tuple[str, ...] = ()
+    provoked: dict[str, int] = {}
 
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -167,14 +185,20 @@ def _body(report: v.Report) -> dict[str, Any]:
     if isinstance(report, v.FrameworkReport):
         return {
             "incidents": tuple(
-                IncidentEntry.of(item.incident, scenario=item.execution.name, replay=incident_file(number))
+                IncidentEntry.of(
+                    item.incident,
+                    scenario=item.execution.name,
+                    replay=incident_file(number),
+                    occurrences=item.occurrences,
+                    requirements=item.requirements,
+                )
                 for number, item in enumerate(report.incidents)
             ),
             "transitions": tuple(map(TransitionEntry.of, report.transitions)),
         }
     assert isinstance(report, v.ToolChainReport)
     counts = {"scenarios": report.models, "events": report.facts, "runs": 1}
-    return {"incidents": (), "transitions": (), "readings": {}, **counts}
+    return {"incidents": (), "transitions": (), "readings": {}, "provoked": {}, **counts}
 
 
 def schema() -> dict[str, Any]:

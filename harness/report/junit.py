@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from lxml import etree
 
@@ -22,36 +22,59 @@ FINDINGS = 3
 def to_junit(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     """The report as JUnit XML, grouped by clause. The report must be clean (``foreign.clean_report``).
 
-    ``inconclusive`` is a failure of type ``inconclusive``: a skip looks green in a CI, and it must not.
+    ``inconclusive`` is a failure of type ``inconclusive``: a skip looks green in a CI, and it must not. A failure that is known
+    is skipped, as the exit status of the run does not count it.
     """
-    name = one_line(f"{report.product} {report.version}, profile {report.profile}: {report.verdict}")
+    only = f", -k {report.selection}" if report.selection else ""
+    name = one_line(f"{report.product} {report.version}, profile {report.profile}{only}: {report.verdict}")
     root = etree.Element("testsuites", name=name)
     suites: dict[str, etree._Element] = {}
+    levels = {requirement.id: requirement.level for requirement in catalogue}
+    if report.incomplete:
+        case = _case(root, suites, "run", "the run is complete", report.seconds)
+        _child(case, "error", report.incomplete, "incomplete", "The report holds what was measured until then.")
     for result in report.requirements:
-        case = _case(root, suites, f"clause {result.clause}", f"{result.id} {result.title}")
+        case = _case(root, suites, f"clause {result.clause}", f"{result.id} {result.title}", result.seconds)
+        properties = {"requirement": result.id, "clause": result.clause, "verdict": result.verdict}
+        if result.id in levels:
+            properties["level"] = levels[result.id]
+        _properties(case, properties, result)
         _verdict(case, result, report)
     reported = {result.id for result in report.requirements}
     for requirement in catalogue:
         if requirement.untestable and requirement.id not in reported:
             case = _case(root, suites, f"clause {requirement.clause}", f"{requirement.id} {requirement.title}")
+            _properties(case, {"requirement": requirement.id, "clause": requirement.clause, "level": requirement.level})
             _child(case, "skipped", f"not testable: {requirement.untestable}")
     for number, incident in enumerate(v.incidents_of(report)):
         title = one_line(f"{incident.incident.kind} in {incident.execution.name}")
         case = _case(root, suites, "incidents", title)
+        _properties(case, {"scenarios": str(incident.occurrences), "requirements": " ".join(incident.requirements)})
         _incident(case, incident, number, report)
     for suite in suites.values():
         _count(suite)
+        suite.set("time", f"{sum(float(case.get('time', '0')) for case in suite):.3f}")
         suite.set("timestamp", clean(report.started, 40))
     _count(root)
     root.set("time", f"{report.seconds:.3f}")
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
 
 
-def _case(root: etree._Element, suites: dict[str, etree._Element], suite: str, title: str) -> etree._Element:
+def _case(
+    root: etree._Element, suites: dict[str, etree._Element], suite: str, title: str, seconds: float = 0
+) -> etree._Element:
     if suite not in suites:
         suites[suite] = etree.SubElement(root, "testsuite", name=one_line(suite))
     classname = "ucm." + one_line(suite).replace(" ", "_").replace(".", "_")
-    return etree.SubElement(suites[suite], "testcase", classname=classname, name=one_line(title), time="0")
+    return etree.SubElement(suites[suite], "testcase", classname=classname, name=one_line(title), time=f"{seconds:.3f}")
+
+
+def _properties(case: etree._Element, properties: Mapping[str, str], result: v.RequirementResult | None = None) -> None:
+    """What programs ask of a test case; each known failure is one of them."""
+    parent = etree.SubElement(case, "properties")
+    known = dict.fromkeys(failed.waived for failed in result.findings if failed.waived) if result is not None else ()
+    for name, value in (*properties.items(), *(("known-failure", reason) for reason in known)):
+        etree.SubElement(parent, "property", name=name, value=one_line(value, 300))
 
 
 def _verdict(case: etree._Element, result: v.RequirementResult, report: v.Report) -> None:
@@ -60,6 +83,10 @@ def _verdict(case: etree._Element, result: v.RequirementResult, report: v.Report
             waived = [failed for failed in result.findings if failed.waived]
             text = "".join(f"waived ({failed.waived}): {failed.finding.observed}\n" for failed in waived)
             etree.SubElement(case, "system-out").text = clean(f"exercised {result.exercised} times\n{text}", 4_000)
+        case "fail" if result.findings and all(failed.waived for failed in result.findings):
+            reasons = "; ".join(dict.fromkeys(failed.waived for failed in result.findings))
+            _child(case, "skipped", f"known failure: {reasons}")
+            etree.SubElement(case, "system-out").text = clean(_story(result, report), 40_000)
         case "fail":
             shortest = shortest_first(result.findings)
             message = shortest[0].finding.observed if shortest else result.reason
@@ -108,6 +135,7 @@ def _incident(case: etree._Element, report_of: v.IncidentReport, number: int, re
     incident, execution = report_of.incident, report_of.execution
     story = [
         incident.detail,
+        f"met in {report_of.occurrences} scenarios" if report_of.occurrences > 1 else "met in one scenario",
         f"last call: {last_call(execution) or 'none'}",
         f"reproduced: {'yes' if incident.reproduced else 'no'}",
         f"replay:    {replay_command(incident_file(number), report)}",

@@ -26,7 +26,8 @@ def file_name(requirement: str, number: int, kind: str = "json") -> str:
 
     ``kind`` is ``json`` for a scenario, ``xml`` for a model.
     """
-    stem = _ODD.sub("-", requirement)[:80].lstrip(".") or "unnamed"
+    stem = _ODD.sub("-", requirement)[:80].lstrip(".")
+    stem = stem if stem.startswith("R-") else f"unnamed-{stem}"
     return f"{FOLDER}/{stem}{f'-{number + 1}' if number else ''}.{kind}"
 
 
@@ -63,6 +64,8 @@ def repeat_command(report: v.Report) -> str:
     adapter, profile = shlex.quote(one_line(report.adapter)), shlex.quote(one_line(report.profile))
     source = report.statement.source
     statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
+    selection = f" -k {shlex.quote(one_line(report.selection))}" if report.selection else ""
+    statement = selection + statement
     if not isinstance(report, v.FrameworkReport):
         return f"ucm-cts run --toolchain {adapter} --profile {profile} --seed {report.seed}{statement}"
     runs = f" --repeat {report.runs}" if report.runs > 1 else ""

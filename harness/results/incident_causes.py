@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import msgspec
@@ -55,7 +56,8 @@ def cause_of_incident(execution: Execution) -> IncidentCause:
         first = re.sub(rf"\b{re.escape(name)}\b", "#", first)
     alike = _SAME_AGAIN.sub(r"\1", _DIFFERENT.sub("#", one_line(first)))
     call = last_open_call(execution.trace)
-    operation = s.operation(execution.scenario.steps[call.step]) if call is not None else ""
+    steps = execution.scenario.steps
+    operation = s.operation(steps[call.step]) if call is not None and call.step < len(steps) else ""  # hosts may lie
     if not incident.reproduced:
         operation = NOT_AGAIN
     return IncidentCause(incident.kind, alike, operation, is_waiting(execution))
@@ -74,21 +76,27 @@ class DistinctIncidents:
     def __init__(self) -> None:
         self._met: dict[IncidentCause, IncidentReport] = {}
 
-    def add(self, execution: Execution) -> None:
-        """Add one. Without a known operation it counts as one of those that it may be."""
+    def add(self, execution: Execution, requirements: Iterable[str] = ()) -> None:
+        """Add one that was to exercise ``requirements``. Without a known operation it counts as one of those that it may be."""
         assert execution.incident is not None
-        cause, new = cause_of_incident(execution), IncidentReport(execution.incident, execution)
+        self.add_report(IncidentReport(execution.incident, execution, requirements=tuple(requirements)))
+
+    def add_report(self, new: IncidentReport) -> None:
+        """Add the incidents of ``new``, which have one cause."""
+        execution = new.execution
+        cause = cause_of_incident(execution)
         alike = [one for one in self._met if one.may_be(cause) and NOT_AGAIN not in (one.operation, cause.operation)]
+        counted, requirements = new.occurrences, {*new.requirements}
         known = self._met.get(cause)
         if known is None and cause.is_open and alike:
             cause = max(alike, key=lambda one: self._met[one].occurrences)
             known = new = self._met[cause]
-        counted = known.occurrences if known is not None else 0
-        for one in alike:
-            if one.is_open and one != cause:  # its operation is known now
-                counted += self._met.pop(one).occurrences
+        others = [self._met.pop(one) for one in alike if one.is_open and one != cause]  # their operation is known now
+        for report in (*others, *([known] if known is not None else [])):
+            counted += report.occurrences
+            requirements.update(report.requirements)
         best = known if known is not None and length(known.execution) <= length(execution) else new
-        self._met[cause] = msgspec.structs.replace(best, occurrences=counted + 1)
+        self._met[cause] = msgspec.structs.replace(best, occurrences=counted, requirements=tuple(sorted(requirements)))
 
     @property
     def reports(self) -> tuple[IncidentReport, ...]:

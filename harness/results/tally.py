@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Protocol
+from collections import Counter, defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Protocol, TypeVar
 
 import msgspec
 
@@ -18,6 +18,8 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.verdicts import RowTally, Verdicts
 
+AnyReport = TypeVar("AnyReport", bound=v.Report)
+
 Cause = tuple[str, str, str]
 """Requirement, rule and cause: findings that agree in these are one failure."""
 
@@ -30,19 +32,20 @@ def cause_of(finding: Finding) -> Cause:
 class Tally:
     """Counts what was exercised and keeps, for each cause of failure, the shortest execution that shows it."""
 
-    def __init__(self, distinct_incidents: bool = False) -> None:
-        """Of ``distinct_incidents`` only one of each cause is kept, however many there are."""
+    def __init__(self) -> None:
         self.exercised: Counter[str] = Counter()
         self.failures: dict[Cause, v.ReportedFinding] = {}
         self.rows: dict[str, RowTally] = {}
         self.lost: dict[str, str] = {}
-        self._incidents: list[v.IncidentReport] = []
-        self._distinct = DistinctIncidents() if distinct_incidents else None
+        self.seconds: defaultdict[str, float] = defaultdict(float)
+        self._explained: dict[Cause, set[str]] = {}
+        self._incidents = DistinctIncidents()
         self._untried: dict[str, v.IncidentReport] = {}
         self._left_out: dict[str, str] = {}
         self.scenarios = 0
         self.events = 0
         self.measures: Counter[str] = Counter()
+        self.provoked: Counter[str] = Counter()
         self.readings: dict[str, set[str]] = {}
         self._settled: dict[str, tuple[v.Verdict, str]] = {}
         self._reasons: dict[str, str] = {}
@@ -61,6 +64,10 @@ class Tally:
             total.readings |= tally.readings
         for finding in findings:
             self.add_failure(finding, v.TraceEvidence(execution))
+        if findings:
+            first = min(findings, key=lambda finding: min(finding.events, default=0))
+            broken = {finding.requirement for finding in findings} - {first.requirement}
+            self._explained.setdefault(cause_of(first), set()).update(broken)
 
     def _observe(self, readings: Mapping[str, Iterable[str]]) -> None:
         for option, values in readings.items():
@@ -134,11 +141,8 @@ class Tally:
             return
         self.scenarios += 1
         self.events += len(execution.trace)
-        not_run = incident.kind == "unreachable"
-        if self._distinct is not None:
-            self._distinct.add(execution)
-        elif not (not_run and any(i.incident == incident for i in self._incidents)):
-            self._incidents.append(v.IncidentReport(incident, execution))
+        requirements = tuple(requirements)
+        self._incidents.add(execution, requirements)
         if incident.kind not in v.FRAMEWORK_INCIDENTS:
             for requirement in requirements:
                 self.lost.setdefault(requirement, f"{incident.kind}: {incident.detail}")
@@ -147,14 +151,35 @@ class Tally:
             self.exercised[finding.requirement] += 1
             self.add_failure(finding, v.TraceEvidence(execution))
 
+    def restore(self, report: v.FrameworkReport) -> None:
+        """Add what another tally of the same run had reported. What no run decides must have been added before."""
+        for result in report.requirements:
+            measured = [failed for failed in result.findings if failed.evidence is not None]
+            self.exercised[result.id] = max(self.exercised[result.id], result.exercised)
+            self.seconds[result.id] += result.seconds
+            for failed in measured:
+                cause = cause_of(failed.finding)
+                self.failures[cause] = msgspec.structs.replace(failed, waived="", explains=())
+                self._explained.setdefault(cause, set()).update(failed.explains)
+        for row in report.transitions:
+            self.rows[row.row] = RowTally(row.exercised, row.violated, {*row.readings})
+        for incident in report.incidents:
+            if incident.incident.kind != "untried":  # their test purposes are run again
+                self._incidents.add_report(incident)
+        self._observe(report.readings)
+        self.provoked.update(report.provoked)
+        self.measures.update(report.effort.measures)
+        self.scenarios += report.scenarios
+        self.events += report.events
+
     @property
     def incidents(self) -> tuple[v.IncidentReport, ...]:
-        """All of them; scenarios that were not tried for the same reason are one."""
+        """One of each cause, as scenarios that were not tried for the same reason are one."""
         left_out = (
             msgspec.structs.replace(one, incident=v.Incident("untried", f"{one.occurrences} scenarios {reason}"))
             for reason, one in self._untried.items()
         )
-        return (*(self._distinct.reports if self._distinct is not None else self._incidents), *left_out)
+        return (*self._incidents.reports, *left_out)
 
     def results(
         self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]
@@ -172,7 +197,9 @@ class Tally:
     ) -> v.RequirementResult:
         by_length = shortest_first(tuple(failures))
         waived = tuple(
-            msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
+            msgspec.structs.replace(
+                f, waived=waiver_for(f.finding, known_failures), explains=self._explained_by(f.finding)
+            )
             for f in by_length
             if not f.unstable
         )
@@ -190,7 +217,13 @@ class Tally:
             reason,
             caused_by=causes[0] if causes and all(causes) else "",
             level=requirement.level,
+            seconds=round(self.seconds[requirement.id], 3),
         )
+
+    def _explained_by(self, finding: Finding) -> tuple[str, ...]:
+        """The other requirements that failed in scenarios in which ``finding`` came first."""
+        failed = {requirement for (requirement, _, _), one in self.failures.items() if not one.unstable}
+        return tuple(sorted(failed & self._explained.get(cause_of(finding), set())))
 
     def _verdict(self, requirement: str, failures: Sequence[v.ReportedFinding], fails: bool) -> tuple[v.Verdict, str]:
         """The verdict, and the reason for any but pass and fail. Where it does not fail, ``failures`` are unstable."""
@@ -233,13 +266,28 @@ class Counted(Protocol):
         """Its level."""
 
 
-def overall(results: Sequence[Counted], incidents: Sequence[object]) -> v.Overall:
-    """Not conformant if any requirement failed; conformant if all passed and there was no incident. Recommendations do not
-    count.
+def overall(results: Sequence[Counted], incidents: Sequence[object], incomplete: str = "") -> v.Overall:
+    """Not conformant if any requirement failed; conformant if all passed without incident, unless the run is ``incomplete``.
+    Recommendations do not count.
     """
     deciding = [result.verdict for result in results if decides(result.level)]
     if "fail" in deciding:
         return "not conformant"
-    if incidents or "inconclusive" in deciding or "error" in deciding or not deciding:
+    if incomplete or incidents or "inconclusive" in deciding or "error" in deciding or not deciding:
         return "inconclusive"
     return "conformant"
+
+
+def ended_early(report: AnyReport, incomplete: str) -> AnyReport:
+    """``report`` as one of a run that ended early for the reason ``incomplete``; as it is if that is empty."""
+    if not incomplete:
+        return report
+    verdict = overall(report.requirements, v.incidents_of(report), incomplete)
+    return msgspec.structs.replace(report, verdict=verdict, incomplete=incomplete)
+
+
+def of_selection(report: AnyReport, expression: str, asked: Collection[str]) -> AnyReport:
+    """``report`` with the verdicts on what ``expression`` selected, the requirements ``asked``, and on what it showed besides."""
+    results = tuple(r for r in report.requirements if r.id in asked or r.findings or r.verdict in ("pass", "fail"))
+    verdict = overall(results, v.incidents_of(report), report.incomplete)
+    return msgspec.structs.replace(report, requirements=results, verdict=verdict, selection=expression)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -117,6 +118,8 @@ class ReportedFinding(Value, frozen=True):
     """Why the failure is known, empty if it is not."""
     unstable: str = ""
     """Why it is not held against the product: another run did not show it. Empty if it is held against it."""
+    explains: tuple[str, ...] = ()
+    """Other requirements that were broken after it in the same scenarios."""
 
     @property
     def execution(self) -> Execution | None:
@@ -133,6 +136,7 @@ class RequirementResult(Value, frozen=True):
     """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``.
 
     ``caused_by``: a requirement whose violation comes before each of its failures, so that they may follow from it.
+    ``seconds``: the time that was spent on scenarios that are to exercise it.
     A recommendation (level ``should``) that fails was not followed: it does not decide the verdict of the run.
     """
 
@@ -145,6 +149,7 @@ class RequirementResult(Value, frozen=True):
     reason: str = ""
     caused_by: str = ""
     level: Level = "shall"
+    seconds: float = 0.0
 
     @property
     def decides(self) -> bool:
@@ -162,11 +167,15 @@ class TransitionResult(Value, frozen=True):
 
 
 class IncidentReport(Value, frozen=True):
-    """An incident with its execution, or the shortest one of all ``occurrences`` that met it."""
+    """An incident with its execution, or the shortest one of all ``occurrences`` that met it.
+
+    ``requirements``: those that the scenarios were to exercise.
+    """
 
     incident: Incident
     execution: Execution
     occurrences: int = 1
+    requirements: tuple[str, ...] = ()
 
 
 class Effort(Value, frozen=True):
@@ -194,6 +203,10 @@ class Report(Value, frozen=True):
     seconds: float
     statement: Statement
     effort: Effort = Effort()
+    incomplete: str = ""
+    """Why the run ended before its end, empty if it did not. What is incomplete is not conformant."""
+    selection: str = ""
+    """What ``-k`` selected; empty after a run of everything. What was not selected and not shown either has no verdict."""
 
 
 class FrameworkReport(Report, frozen=True, kw_only=True):
@@ -206,6 +219,23 @@ class FrameworkReport(Report, frozen=True, kw_only=True):
     readings: dict[str, tuple[str, ...]]
     """The readings that were observed, by option."""
     runs: int = 1
+    adapter_file: str = ""
+    """The file that the adapter was loaded from; empty if it is not known."""
+    warnings: tuple[str, ...] = ()
+    """What the vendor should know of the adapter, a sentence each."""
+    provoked: dict[str, int] = {}
+    """How often bodies acted in a callback: by callback, operation that led there, and action."""
+
+
+SIDES: Mapping[str, tuple[str, str]] = {
+    "accepts what is legal": ("legal models", "legal models accepted"),
+    "refuses what is broken": ("broken models", "broken models refused"),
+}
+"""The two sides of a checker, and the measures of each: the models that decide something, and those answered as they must be. The
+same measures with ``REQUIREMENTS_WITH`` before them count requirements of which all such models are answered so.
+"""
+
+REQUIREMENTS_WITH = "requirements with "
 
 
 class ToolChainReport(Report, frozen=True, kw_only=True):

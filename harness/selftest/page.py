@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import msgspec
 from markupsafe import Markup, escape
 
 from ucm_cts.harness.report.order import clause_key
 from ucm_cts.harness.report.page import rendered
-from ucm_cts.harness.report.write import prepare_folder, write_whole
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, by_clause
 
@@ -36,11 +34,13 @@ class ClauseRow:
         return sum(mutant.is_killed for mutant in self.mutants)
 
 
-def write_matrix(matrix: Matrix, out: Path) -> None:
-    """Write both files into the folder ``out``, made if needed. Raises ``WrongUse`` if that cannot be done."""
-    prepare_folder(out)
-    write_whole(out / "matrix.json", msgspec.json.format(msgspec.json.encode(matrix), indent=1) + b"\n")
-    write_whole(out / "matrix.html", to_html(matrix).encode())
+MATRIX_FILES = ("matrix.json", "matrix.html")
+
+
+def matrix_files(matrix: Matrix) -> dict[str, bytes]:
+    """Both files, by their names."""
+    content = msgspec.json.format(msgspec.json.encode(matrix), indent=1) + b"\n"
+    return dict(zip(MATRIX_FILES, (content, to_html(matrix).encode()), strict=True))
 
 
 def to_html(matrix: Matrix) -> str:

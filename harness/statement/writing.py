@@ -10,6 +10,7 @@ import jinja2
 import msgspec
 
 import ucm_cts
+from ucm_cts.harness.catalogue.documents import without_waiting
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import Interpretation, load_capabilities, load_interpretations
 from ucm_cts.harness.hosting.locate import WrongUse
@@ -41,7 +42,7 @@ def _write(out: Path, known: Statement, identity: Identity, subject: str, force:
     statement = msgspec.structs.replace(known, product=product, version=version)
     text = to_toml(statement, one_line(subject), one_line(str(out)))
     try:
-        with out.open("w" if force else "x", encoding="utf-8") as file:
+        with open(out, "w" if force else "x", encoding="utf-8", opener=without_waiting) as file:
             file.write(text)
     except FileExistsError:
         raise WrongUse(

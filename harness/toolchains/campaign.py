@@ -6,7 +6,7 @@ import datetime
 import os
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Protocol
 
@@ -78,8 +78,11 @@ class ToolChainCampaign:
         jobs: int = os.cpu_count() or 1,
         source: str = "",
         seed: int = 0,
+        first: Collection[str] = (),
     ) -> None:
-        """``identity`` is the product and its version, ``source`` the file that describes it, ``seed`` the run's."""
+        """``identity`` is the product and its version, ``source`` the file that describes it, ``seed`` the run's. The models
+        of the names ``first`` are processed first.
+        """
         self._processor = processor
         self._examination = examination
         self._identity = identity
@@ -92,11 +95,10 @@ class ToolChainCampaign:
         self._responses: dict[str, Response] = {}
         self._shown: dict[str, tuple[Fact, ...]] = {}
         self._facts: list[Fact] = []
+        self._first = first
         self._tally = Tally()
-        for requirement, reason in examination.not_applicable.items():
-            self._tally.settle(requirement, "not applicable", reason)
-        if profile == "idl" and omniidl.missing():  # a pass must not depend on what is installed
-            self._tally.settle(omniidl.ASKED_ABOUT, "inconclusive", omniidl.missing())
+        self._seconds: dict[str, float] = {}
+        self.is_judged = False
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._measures: Counter[str] = Counter()
         self._began = time.monotonic()
@@ -105,7 +107,8 @@ class ToolChainCampaign:
     def process(self) -> Iterator[str]:
         """Have each model processed, several at a time; yields the name of each when it is done."""
         task = TASKS[self._profile]
-        models, size = self._examination.models, self._processor.at_once(task)
+        models = sorted(self._examination.models, key=lambda model: model[0] not in self._first)
+        size = self._processor.at_once(task)
         waiting = iter([models[first : first + size] for first in range(0, len(models), size)])
         running: dict[Future[list[tuple[Response, tuple[Fact, ...]]]], list[str]] = {}
         with ThreadPoolExecutor(self._jobs) as pool:
@@ -127,12 +130,25 @@ class ToolChainCampaign:
                 pool.shutdown(cancel_futures=True)
 
     def _processed(self, task: Task, some: Sequence[tuple[str, str]]) -> list[tuple[Response, tuple[Fact, ...]]]:
-        names = (name for name, _ in some)
+        began = time.monotonic()
         responses = self._processor.process_all(task, some)
-        return [(one, self._examination.examine(name, one)) for name, one in zip(names, responses, strict=True)]
+        pairs = zip(some, responses, strict=True)
+        done = [(one, self._examination.examine(name, one)) for (name, _), one in pairs]
+        self._seconds.update({name: (time.monotonic() - began) / len(some) for name, _ in some})
+        return done
+
+    def warnings(self) -> tuple[str, ...]:
+        """What the vendor should know of how the calls went."""
+        return self._processor.warnings()
 
     def judge(self) -> None:
-        """Judge the responses so far."""
+        """Judge the responses so far, instead of what was judged before."""
+        self._tally = Tally()
+        self._measures.clear()
+        for requirement, reason in self._examination.not_applicable.items():
+            self._tally.settle(requirement, "not applicable", reason)
+        if self._profile == "idl" and omniidl.missing():  # a pass must not depend on what is installed
+            self._tally.settle(omniidl.ASKED_ABOUT, "inconclusive", omniidl.missing())
         self._facts = list(self._examination.judge(self._responses, self._shown))
         for fact in self._facts:
             self._measures[fact.measure or "facts"] += 1
@@ -146,6 +162,27 @@ class ToolChainCampaign:
                 self._tally.exercised[fact.requirement] += 1
                 if fact.finding is not None:
                     self._tally.add_failure(fact.finding, fact.evidence)
+        asked_by_model: dict[str, set[str]] = {}
+        for fact in self._facts:
+            if fact.requirement:
+                asked_by_model.setdefault(fact.models[-1], set()).add(fact.requirement)
+        for name, requirements in asked_by_model.items():
+            for requirement in requirements:
+                self._tally.seconds[requirement] += self._seconds.get(name, 0.0) / len(requirements)
+        self._explain_lost()
+        self.is_judged = True
+
+    def _explain_lost(self) -> None:
+        """Say of requirements that nothing exercised that models got no answer, if so."""
+        lost = Counter(
+            f"{response.processed.incident.kind}: {response.processed.incident.detail}"
+            for response in self._responses.values()
+            if response.processed.incident is not None
+        )
+        for reason, number in lost.most_common(1):
+            for requirement in self._requirements:
+                answers = f"{number} of {len(self._responses)} models got no answer ({reason})"
+                self._tally.explain(requirement.id, f"its condition never arose in this run; {answers}")
 
     def confirm(self) -> Iterator[str]:
         """Process again one model of each broken requirement: a failure that does not show again is unstable, and no verdict.
@@ -170,6 +207,10 @@ class ToolChainCampaign:
             finally:
                 pool.shutdown(cancel_futures=True)
 
+    def asked_by(self, words: Collection[str]) -> set[str]:
+        """The requirements that models ask about whose names hold one of ``words``."""
+        return {fact.requirement for fact in self._facts if any(word in fact.models[-1].lower() for word in words)}
+
     def report(self) -> ToolChainReport:
         """All verdicts of the run so far."""
         results = self._tally.results(self._requirements, self._known)
@@ -185,7 +226,7 @@ class ToolChainCampaign:
             started=self._started,
             seconds=round(time.monotonic() - self._began, 3),
             models=len(self._responses),
-            facts=len(self._facts),
+            facts=sum(1 for fact in self._facts if fact.requirement),
             statement=self._statement,
             effort=Effort(dict(self._measures.most_common())),
         )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from performing import answer
@@ -20,11 +22,16 @@ from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes, select
 from ucm_cts.harness.selftest.generated.python_programs import HOME
 from ucm_cts.harness.statement.files import read_statement
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.executions import BusinessCall
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.interactions import Interactions
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Container, Member, Runtime
 from ucm_cts.reference_models.monitor import Monitor
+from ucm_cts.reference_models.properties.clause_10_1_6 import message_order
+from ucm_cts.reference_models.properties.declaration import PROPERTIES
 
 EMITTER = Declaration(("in.api",), ("out.api",), ports={"out.api": "numbers"})
 RECEIVER = Declaration(("in.api", "aux.api"), ports={"in.api": "numbers", "aux.api": "numbers"})
@@ -95,6 +102,19 @@ def test_a_message_of_this_phase_comes_first(story: Story) -> None:
     story.start_again("left receiver")
     late = story.push("left", 1)
     assert [story.deliver("left", 1).call for _ in range(2)] == [late, early]
+
+
+@pytest.mark.parametrize("values", [(1, 1), (1, 2)])
+def test_the_order_of_equal_messages_is_open(story: Story, values: tuple[int, int]) -> None:
+    """A message that was kept until the next start, and one of that phase: an equal one may be either."""
+    early, late = values
+    story.push("left", early)
+    story.start_again("left receiver")
+    story.push("left", late)
+    runtime = cast(ObservedRuntime, SimpleNamespace(interactions=story.reported, ics=Ics({"message-order": "fifo"})))
+    second_first = [story.deliver("left", value) for value in (late, early)]
+    concluded = [c for d in second_first for c in message_order(PROPERTIES["message_order"], runtime, d)]
+    assert any(isinstance(one, Finding) for one in concluded) == (early != late)
 
 
 def test_refused_push_comes_last(story: Story) -> None:

@@ -183,7 +183,8 @@ def test_conformant_framework_passes_everywhere(here: Path) -> None:
     assert set(session.nodes) == set(PURPOSES)
     report = report_of(here / "out")
     assert (report["verdict"], report["seed"]) == ("conformant", 7)
-    assert {path.name for path in (here / "out").iterdir()} == {"report.html", "report.json", "junit.xml", "failures"}
+    written = {path.name for path in (here / "out").iterdir()}
+    assert written == {"report.html", "report.json", "junit.xml", "failures", "ucm-cts-manifest.json"}
 
 
 def test_defect_fails_the_nodes_that_show_it_and_no_others(wrong: tuple[Session, Path]) -> None:

@@ -158,5 +158,5 @@ def test_what_fails_no_requirement_comes_first(kind: IncidentKind) -> None:
     console = Console(width=200)
     with console.capture() as printed:
         console.print(summary(sample(incidents=(item,))))
-    lines = printed.get().splitlines()
+    lines = [line for line in printed.get().splitlines() if line]
     assert f"⚡ {kind}  fails no requirement: signal 11, between two calls" in lines[2]

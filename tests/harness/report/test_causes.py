@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.harness.catalogue.requirements import Requirement, load_life_cycle
-from ucm_cts.harness.report.order import roots, to_fix
+from ucm_cts.harness.report.order import to_fix
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.results.tally import Tally
 from ucm_cts.harness.results.values import RequirementResult
@@ -64,7 +64,8 @@ def result(name: str, caused_by: str = "") -> RequirementResult:
 
 def test_followers_are_listed_with_their_cause() -> None:
     failed = [result(ADD), result(LIST, ADD), result("R-11.2.3-03", "R-11.1.1-01")]
-    assert [(r.id, [f.id for f in followers]) for r, followers in roots(to_fix(failed))] == [
+    fixes = to_fix(sample(requirements=tuple(failed), incidents=()))
+    assert [(fix.result and fix.result.id, [f.id for f in fix.followers]) for fix in fixes] == [
         (ADD, [LIST]),
         ("R-11.2.3-03", []),
     ]

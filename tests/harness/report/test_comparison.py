@@ -126,9 +126,20 @@ def test_a_report_may_be_compared_with_itself_and_with_one_of_another_suite(tmp_
     page = to_html(compare(save(tmp_path, LEFT, LEFT)), tmp_path)
     assert "0 on which they differ" in page
     assert "different versions" not in page
-    assert "different versions" in to_html(
-        compare(save(tmp_path, LEFT, report("Other", suite_version="9", verdict="inconclusive"))), tmp_path
-    )
+    other = report("Other", requirement("R-12.10-01", "pass"), suite_version="9")
+    assert "different versions" in to_html(compare(save(tmp_path, LEFT, other)), tmp_path)
+
+
+def test_reports_that_say_nothing_together_are_refused(tmp_path: Path) -> None:
+    early = report("Early", requirement("R-12.10-01", "pass"), verdict="inconclusive", incomplete="interrupted")
+    files = save(tmp_path, LEFT, RIGHT, early)
+    outcome = ucm_cts("compare", *files)
+    assert (outcome.status, outcome.out) == (2, "")
+    assert f"'{files[2]}' cannot be compared: its run is incomplete (interrupted)" in outcome.err
+    files = save(tmp_path, LEFT, RIGHT, report("Other", requirement("R-9.1-01", "pass"), profile="pim"))
+    outcome = ucm_cts("compare", *files)
+    assert (outcome.status, len(outcome.err.splitlines())) == (2, 1)
+    assert f"'{files[2]}' (profile pim) has no requirement in common with the others" in outcome.err
 
 
 def test_hostile_text_stays_text(tmp_path: Path) -> None:

@@ -31,9 +31,11 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.report import json_report, order
 from ucm_cts.harness.report.diagrams import transitions
+from ucm_cts.harness.report.out_folder import MANIFEST
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import write_report
 from ucm_cts.harness.results.foreign import LONGEST, LONGEST_STACKS, clean, clean_report, one_line
+from ucm_cts.harness.results.tally import ended_early
 from ucm_cts.harness.results.values import RequirementResult
 
 
@@ -88,7 +90,18 @@ def test_the_verdict_comes_before_the_fixes(page: Any) -> None:
     assert text.index(marks[0]) < text.index(marks[1])
     assert [heading.text_content() for heading in page.xpath("//main//h2")] == marks[1:]
     fixes = page.xpath("//ol[@class='fix']/li/a/@href")
-    assert fixes == ["#R-11.2.2.1-12", "#R-11.2.1.2-06", "#R-12.10-15", "#R-11.1.3-01"]  # the most often met first
+    assert fixes[:2] == ["#incident-1", "#incident-2"]
+    assert fixes[2:] == ["#R-11.2.2.1-12", "#R-11.2.1.2-06", "#R-12.10-15", "#R-11.1.3-01"]  # the most often met first
+
+
+def test_what_explains_most_is_fixed_first() -> None:
+    rare, often = results()[2], results()[1]
+    found = msgspec.structs.replace(rare.findings[0], explains=("R-11.2.2.1-12", "R-11.2.1.2-06"))
+    leading = msgspec.structs.replace(rare, findings=(found,))
+    lost = msgspec.structs.replace(crash(), occurrences=2, requirements=("R-11.2.2.1-12", "R-12.10-15"))
+    many = msgspec.structs.replace(crash("another"), occurrences=700, requirements=("R-12.10-15",))
+    fixes = order.to_fix(sample(requirements=(often, leading), incidents=(many, lost)))
+    assert [fix.incident if fix.result is None else fix.result.id for fix in fixes] == [1, 0, rare.id, often.id]
 
 
 def test_each_failure_has_both_diagrams_the_scenario_and_the_command(page: Any) -> None:
@@ -216,15 +229,18 @@ def test_the_table_lists_every_row_with_counts(page: Any) -> None:
 JUNIT = """
 <grammar xmlns="http://relaxng.org/ns/structure/1.0" datatypeLibrary="http://www.w3.org/2001/XMLSchema-datatypes">
   <start><element name="testsuites"><ref name="counts"/><attribute name="time"/>
-    <oneOrMore><element name="testsuite"><ref name="counts"/><attribute name="timestamp"/>
+    <oneOrMore><element name="testsuite"><ref name="counts"/><attribute name="timestamp"/><attribute name="time"/>
       <oneOrMore><element name="testcase">
         <attribute name="classname"/><attribute name="name"/><attribute name="time"/>
+        <optional><element name="properties"><oneOrMore>
+          <element name="property"><attribute name="name"/><attribute name="value"/></element>
+        </oneOrMore></element></optional>
         <optional><choice>
           <element name="failure"><ref name="reported"/></element>
           <element name="error"><ref name="reported"/></element>
           <element name="skipped"><attribute name="message"/></element>
-          <element name="system-out"><text/></element>
         </choice></optional>
+        <optional><element name="system-out"><text/></element></optional>
       </element></oneOrMore>
     </element></oneOrMore>
   </element></start>
@@ -250,13 +266,38 @@ def test_junit_is_valid_and_no_undecided_requirement_looks_green(out: Path) -> N
     assert cases["R-11.2.3-90"].find("skipped").get("message") == "not applicable: Declared so by the vendor."
     assert "Describes an architecture." in cases["R-11-01"].find("skipped").get("message")
     assert cases["crash"].find("error").get("type") == "crash"
-    assert document.getroot().get("failures") == "5"
+    assert document.getroot().get("failures") == "4"
     assert document.getroot().get("errors") == "3"
+    known = cases["R-11.2.1.2-06"]
+    assert known.find("skipped").get("message") == "known failure: known, ticket 12"
+    assert properties(known)["known-failure"] == "known, ticket 12"
+    assert properties(known)["requirement"] == "R-11.2.1.2-06"
+    assert properties(cases["R-11.2.2.1-12"])["verdict"] == "fail"
+    assert cases["R-11.2.2.1-01"].get("time") == "1.250"
+
+
+def properties(case: Any) -> dict[str, str]:
+    return {entry.get("name"): entry.get("value") for entry in case.iter("property")}
+
+
+def test_incomplete_run_says_so_in_all_three_reports(tmp_path: Path) -> None:
+    kept = tuple(msgspec.structs.replace(result, verdict="pass", findings=()) for result in results())
+    whole = sample(verdict="conformant", requirements=kept, incidents=())
+    early = ended_early(whole, "interrupted after 3 of 70 test purposes")
+    assert early.verdict == "inconclusive"
+    write_report(early, CATALOGUE, TABLE, {}, tmp_path)
+    page = html.document_fromstring((tmp_path / "report.html").read_bytes().decode())
+    assert "Incomplete: interrupted after 3 of 70" in " ".join(page.xpath("string(//div[@role='status'])").split())
+    document = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert (document["verdict"], document["incomplete"]) == ("inconclusive", early.incomplete)
+    (error,) = etree.parse(tmp_path / "junit.xml").iter("error")
+    assert (error.get("type"), error.get("message")) == ("incomplete", early.incomplete)
+    assert ended_early(sample(), "interrupted").verdict == "not conformant", "what failed has failed"
 
 
 def test_junit_failures_read_well_in_a_log(out: Path) -> None:
     document = etree.parse(out / "junit.xml")
-    text = next(f.text or "" for f in document.iter("failure") if "R-11.2.1.2-06" in (f.text or ""))
+    text = next(f.text or "" for f in document.iter("system-out") if "R-11.2.1.2-06" in (f.text or ""))
     for words in (
         "R-11.2.1.2-06 on_remove comes last (clause 11.2.1.2)",
         "expected: stop calls on_shutdown of every started component before it returns.",
@@ -274,7 +315,7 @@ def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
     assert list(document) == [
         *("product", "version", "profile", "verdict", "requirements", "incidents", "transitions", "adapter"),
         *("suite_version", "seed", "started", "seconds", "scenarios", "events", "statement", "readings"),
-        *("measures", "seconds_by_clause", "runs"),
+        *("measures", "seconds_by_clause", "runs", "incomplete", "selection", "adapter_file", "warnings"),
     ]
     failed = {entry["id"]: entry for entry in document["requirements"]}["R-11.1.3-01"]
     keys = [
@@ -290,7 +331,7 @@ def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
         "decides",
         "derived",
     ]
-    assert list(failed) == keys
+    assert list(failed) == [*keys, "seconds"]
     finding = failed["findings"][0]
     assert finding["replay"] == "failures/R-11.1.3-01.json"
     assert [event["kind"] for event in finding["events"]] == ["reply"]
@@ -318,7 +359,9 @@ def test_saved_failures_are_whole_scenarios_the_shortest_first(out: Path) -> Non
 def test_a_second_report_replaces_the_first_and_leaves_no_litter(tmp_path: Path) -> None:
     write_report(sample(), CATALOGUE, TABLE, DECISIONS, tmp_path)
     write_report(sample(requirements=(), incidents=()), CATALOGUE, TABLE, DECISIONS, tmp_path)
-    assert {path.name for path in tmp_path.rglob("*")} == {"report.html", "report.json", "junit.xml", "failures"}
+    assert {path.name for path in tmp_path.rglob("*")} == {
+        *("report.html", "report.json", "junit.xml", "failures", MANIFEST)
+    }
 
 
 def test_names_of_files_cannot_leave_the_folder(tmp_path: Path) -> None:

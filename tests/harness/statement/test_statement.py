@@ -417,7 +417,7 @@ def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
     assert unnamed == default_statement()
     (command,) = re.findall(r"(ucm-cts run .*)", outcome.out)
     outcome = ucm_cts(*shlex.split(command)[1:], "-k", "R-11.2.2.1-13")
-    assert (outcome.status, outcome.err) == (1, ""), "of a selection most is inconclusive"
+    assert (outcome.status, outcome.err) == (0, "")
     assert report_of(here / "ucm-cts-report")["statement"]["source"] == "ucm-cts-ics.toml"
 
 

@@ -1,0 +1,298 @@
+"""Certifies a framework (``ucm-cts run ADAPTER``), once or several times, and keeps what was measured whatever happens."""
+
+from __future__ import annotations
+
+import hashlib
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NoReturn
+
+import msgspec
+
+import ucm_cts
+from ucm_cts.adapters.contract.messages import Welcome
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.cli.last_run import failed_in
+from ucm_cts.harness.cli.options import Budget, greet, leave_with, name_of, nothing_selected
+from ucm_cts.harness.cli.run_checkpoints import CHECKPOINTS, Checkpoints
+from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.campaign_state import CampaignState
+from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.execution.repeating import repeated, steady_search
+from ucm_cts.harness.exploring.exploration import DRAWN, KNOWN, Exploration
+from ucm_cts.harness.exploring.memory import Memory, open_databases
+from ucm_cts.harness.hosting.hosts import HostUnavailable
+from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.purposes.selection import asked_by, select
+from ucm_cts.harness.report.write import keep_report, report_folder
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.known_failures import KnownFailure, known_today
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.tally import ended_early, of_selection
+from ucm_cts.harness.results.values import FrameworkReport
+from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.harness.statement.files import check_subject, stated_by
+
+EXAMPLES = "examples"
+"""The folder, within that of the report, of failures that drawn scenarios showed."""
+
+KEPT_EVERY = 60
+"""After so many seconds, what a run has measured is kept again."""
+
+
+@dataclass(frozen=True)
+class FrameworkRun:
+    """What a user wants: the arguments of ``ucm-cts run``.
+
+    ``seed``: of the first run; ``is_seeded``: the user named it. ``explore``: what drawing scenarios may cost after the test
+    purposes of a whole profile. ``everything``: the summary lists everything.
+    """
+
+    adapter: str
+    profile: str
+    expression: str
+    seed: int
+    out: Path
+    known_failures: Path | None
+    ics: Path | None
+    repeat: int
+    in_process: bool
+    limits: Limits
+    systematic: int
+    explore: Budget
+    everything: bool
+    failed_first: bool
+    resume: bool
+    is_seeded: bool
+
+
+def certify_framework(wanted: FrameworkRun) -> NoReturn:
+    """Run it, write the report, and end. Raises ``WrongUse``, ``DocumentError`` and ``HostUnavailable``."""
+    console = Output()
+    endpoint = locate(wanted.adapter, wanted.in_process)
+    known = known_today(wanted.known_failures)
+    statement = stated_by(wanted.ics, wanted.adapter)
+    offered = purposes_for(statement, wanted.profile, wanted.systematic)
+    purposes = select(offered, wanted.expression) if wanted.expression else offered
+    if not purposes:
+        names = (name for purpose in offered for name in (purpose.id, purpose.clause, *purpose.requirements))
+        raise nothing_selected(wanted.expression, names, "test purpose")
+    with (
+        ends_like_interrupts() as interrupts,
+        interrupts.held(),  # nothing is lost between the places that permit interrupts
+        report_folder(wanted.out, CHECKPOINTS) as folder,
+    ):
+        if wanted.failed_first:
+            failed = failed_in(wanted.out, console).requirements
+            purposes = tuple(sorted(purposes, key=lambda purpose: not failed.intersection(purpose.requirements)))
+        checkpoints = Checkpoints(folder, _measured(wanted, statement, known, purposes, endpoint))
+        series = _Series(wanted, endpoint, statement, known, purposes, checkpoints, console, interrupts)
+        incomplete = series.run()
+        report = ended_early(series.joined(), incomplete)
+        if wanted.expression:
+            report = of_selection(report, wanted.expression, asked_by(purposes, wanted.expression))
+        saved = keep_report(report, folder, () if report.incomplete else CHECKPOINTS)
+        series.remember(report)
+        leave_with(console, report, saved, known, wanted.everything)
+
+
+class _Series:
+    """One run, or several with a seed each; ``reports`` has one for each."""
+
+    def __init__(
+        self,
+        wanted: FrameworkRun,
+        endpoint: Endpoint,
+        statement: Statement,
+        known: Sequence[KnownFailure],
+        purposes: Sequence[TestPurpose],
+        checkpoints: Checkpoints,
+        console: Output,
+        interrupts: Interrupts,
+    ) -> None:
+        self._wanted = wanted
+        self._endpoint = endpoint
+        self._statement = statement
+        self._known = known
+        self._purposes = purposes
+        self._checkpoints = checkpoints
+        self._console = console
+        self._interrupts = interrupts
+        self._seed = wanted.seed
+        self._explore = Budget(0) if wanted.expression else wanted.explore
+        self._is_greeted = False
+        self._state: CampaignState | None = None
+        self.reports: list[FrameworkReport] = []
+
+    def run(self) -> str:
+        """Run what is wanted. Returns why that ended early, empty if it did not; raises what prevents the first run."""
+        if self._wanted.resume:
+            self._resume()
+        problem = self._run_once() if self.reports and len(self.reports) == self._wanted.repeat else ""
+        while not problem and len(self.reports) < self._wanted.repeat:
+            problem = self._run_once()
+        return problem
+
+    def _resume(self) -> None:
+        self.reports, self._state = self._checkpoints.read(self._wanted.seed if self._wanted.is_seeded else None)
+        known = self.reports[0] if self.reports else self._state.report if self._state is not None else None
+        assert known is not None
+        self._seed = known.seed
+        self.reports = self.reports[: self._wanted.repeat]
+        ended = f"{len(self.reports)} of {self._wanted.repeat} runs had ended before"
+        part = (
+            f", and {len(self._state.done)} of {len(self._purposes)} test purposes" if self._state is not None else ""
+        )
+        self._console.say(f"{ended}{part}")
+
+    def joined(self) -> FrameworkReport:
+        """One report of all runs. What differs between them is searched for, unless nothing more is to be run."""
+        try:
+            with self._interrupts.permitted():
+                return repeated(self.reports, steady_search(self._endpoint, self._wanted.limits, self._statement.ics))
+        except (HostUnavailable, KeyboardInterrupt):
+            return repeated(self.reports, lambda failed, seed: None)
+
+    def _run_once(self) -> str:
+        """Run the next one, if one is missing. Returns why the series is not to go on, empty if it is."""
+        number, of = len(self.reports) + 1, self._wanted.repeat
+        which = f"run {number} of {of}"
+        try:
+            with Driver(self._endpoint, self._seed + number - 1, self._wanted.limits) as driver:
+                with self._interrupts.permitted():
+                    identity = driver.identity
+                known = [*self.reports, *([self._state.report] if self._state is not None else [])]
+                if known and not _is_of(identity, known[0]):
+                    another = f"another product, '{name_of(identity)}'"
+                    if not self._is_greeted:
+                        raise _Misfit(f"the runs that had ended before are of {another}; leave out --resume")
+                    return f"{which} was of {another}"
+                if not self._is_greeted:
+                    check_subject(self._statement, identity, self._wanted.profile)
+                    greet(self._console, name_of(identity), self._wanted.profile, self._seed)
+                    self._is_greeted = True
+                return self._measure(driver, f"{which}: " if of > 1 else "") if number <= of else ""
+        except _Misfit:
+            raise
+        except KeyboardInterrupt:
+            if not self.reports:
+                raise
+            return f"interrupted before {which} had begun"
+        except (HostUnavailable, WrongUse) as problem:
+            if not self.reports:
+                raise
+            return f"{which} could not begin: {problem}"
+
+    def _measure(self, driver: Driver, which: str) -> str:
+        campaign = Campaign(driver, self._wanted.profile, self._known, self._statement)
+        done = 0
+        if self._state is not None:
+            campaign.restore(self._state)
+            done, self._state = len(self._state.done), None
+        problem = ""
+        try:
+            with self._interrupts.permitted():
+                self._check(campaign, which, done)
+        except KeyboardInterrupt:
+            state = campaign.state
+            problem = f"interrupted after {len(state.done)} of {len(self._purposes)} test purposes"
+            self._checkpoints.keep_part(len(self.reports) + 1, state, self._console)
+        if problem and self.reports:  # half a run would make verdicts unstable
+            return f"{problem} of run {len(self.reports) + 1}"
+        self.reports.append(campaign.report(problem))
+        if self._wanted.repeat > 1 and not problem:
+            self._checkpoints.keep(len(self.reports), self.reports[-1], self._console)
+        left = self._wanted.repeat - len(self.reports)
+        return problem or (f"interrupted when {left} runs were left" if self._interrupts.came and left else "")
+
+    def _check(self, campaign: Campaign, which: str, done: int) -> None:
+        with progress_of(self._console) as progress:
+            task = progress.add_task(f"{which}checking", total=len(self._purposes), completed=done)
+            failing, kept = 0, time.monotonic()
+            for checked in campaign.check(self._purposes):
+                failing += bool(checked.failures)
+                text = f"{which}{failing} failing, {one_line(checked.purpose.id, 50)}"
+                progress.update(task, advance=1, description=text)
+                if time.monotonic() - kept > KEPT_EVERY:
+                    with self._interrupts.held():
+                        self._checkpoints.keep_part(len(self.reports) + 1, campaign.state, self._console)
+                    kept = time.monotonic()
+                if self._interrupts.came:
+                    raise KeyboardInterrupt
+            if self._explore.amount:
+                progress.update(task, description=f"{which}drawing scenarios")
+                failing += self._draw(campaign)
+            progress.update(task, description=f"{which}confirming failures")
+            campaign.confirm()
+            if failing:
+                progress.update(task, description=f"{which}shortening scenarios of failures")
+                for _ in campaign.shorten():
+                    pass
+
+    def _draw(self, campaign: Campaign) -> int:
+        """Try failures that drawn scenarios showed before, then draw scenarios. Returns how many causes of failure they show.
+
+        All runs of a series draw the same scenarios, as far as the framework does the same.
+        """
+        kept = self._wanted.out / EXAMPLES
+        memory = self._memory(campaign.report()) if kept.is_dir() and not kept.is_symlink() else None
+        exploration = Exploration(campaign, self._seed, memory, may_wait=True)
+        known = exploration.replay()
+        began, failures, far = time.monotonic(), 0, 0
+        for progress in exploration.explore():
+            failures, far = progress.failures, progress.scenarios
+            if self._interrupts.came:
+                raise KeyboardInterrupt
+            if self._explore.spent(far, time.monotonic() - began) >= self._explore.amount:
+                break
+        campaign.count("scenarios drawn at random", far)
+        self._explore = Budget(far, is_time=False)
+        return max(failures, sum(one.fate == "still there" for one in known))
+
+    def remember(self, report: FrameworkReport) -> None:
+        """Keep the failures that drawn scenarios showed: the next run into the same folder tries them again."""
+        named = (DRAWN, KNOWN)
+        shown_by = [found.execution for result in report.requirements for found in result.findings]
+        shown_by += [item.execution for item in report.incidents]
+        if any(execution is not None and execution.name.startswith(named) for execution in shown_by):
+            try:
+                self._memory(report).remember_all(report, named)
+            except (OSError, WrongUse) as error:
+                self._console.say(f"failures of drawn scenarios are not kept for the next run: {error}")
+
+    def _memory(self, report: FrameworkReport) -> Memory:
+        return Memory(open_databases([str(self._wanted.out / EXAMPLES)]), report.product, report.profile)
+
+
+class _Misfit(WrongUse):
+    """What was resumed is not of this product."""
+
+
+def _is_of(identity: Welcome, report: FrameworkReport) -> bool:
+    return (identity.product, identity.version) == (report.product, report.version)
+
+
+def _measured(
+    wanted: FrameworkRun,
+    statement: Statement,
+    known: Sequence[KnownFailure],
+    purposes: Sequence[TestPurpose],
+    endpoint: Endpoint,
+) -> tuple[object, ...]:
+    """All that two runs must have in common to be of one series."""
+    target = Path(endpoint.target)
+    return (
+        ucm_cts.__version__,
+        [(r.id, r.rules, r.level) for r in load_requirements()],
+        [(purpose.id, purpose.requirements, purpose.scenarios) for purpose in sorted(purposes, key=lambda p: p.id)],
+        (endpoint.text, endpoint.kind, endpoint.target, endpoint.in_process),
+        hashlib.sha256(target.read_bytes()).hexdigest() if target.is_file() else "",
+        (wanted.profile, wanted.expression, wanted.systematic),
+        msgspec.structs.replace(statement, folder=""),
+        (wanted.limits.seconds, wanted.limits.memory, wanted.limits.incident_seconds),
+        known,
+    )
