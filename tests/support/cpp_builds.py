@@ -134,6 +134,8 @@ class Builds:
             "tsan": lambda: (text(reference), tsan),
             "asan": lambda: (text(reference), ["-std=c++11", *asan]),
             "spellings": lambda: (NATIVE / "other_spellings.cpp", STRICT),
+            "accessors": lambda: (NATIVE / "accessor_classes.cpp", STRICT),
+            "cells": lambda: (NATIVE / "cells.cpp", [*STRICT, *asan]),
             "patchbay": lambda: (NATIVE / "patchbay.cpp", [*STRICT, *asan]),
             "links": lambda: (text(f'{framework}#include "{NATIVE / "lwucm_links.cpp"}"\n'), tsan),
             "power": lambda: (NATIVE / "stress_power.cpp", [*STRICT, "-O2"]),

@@ -134,13 +134,13 @@ class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
                                                                  {"emitter", lwucm::Role::emitter},
                                                                  {"receiver", lwucm::Role::receiver}};
         translate([&] {
-            of_link(link).attach(roles.at(role), own(container), static_cast<lwucm::componentId>(id), port);
+            of_link(link).attach(roles.at(role), shared(container), static_cast<lwucm::componentId>(id), port);
         });
     }
 
     void detach(const ucm_cts::LinkHandle& link, const Handle& container, ucm_cts::Id id,
                 const std::string& port) override {
-        translate([&] { of_link(link).detach(own(container), static_cast<lwucm::componentId>(id), port); });
+        translate([&] { of_link(link).detach(shared(container), static_cast<lwucm::componentId>(id), port); });
     }
 
     void break_link(const ucm_cts::LinkHandle& link, const std::string& where) override {
@@ -156,17 +156,13 @@ class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
     std::vector<ucm_cts::LogRecord> read_log(const Handle&) override {
         std::vector<ucm_cts::LogRecord> records;
         for (const lwucm::LogRecord& record : manager_->trace_records()) {
-            records.push_back({lwucm::name_of(record.severity), reference_cpp::to_utf8(record.message)});
+            records.push_back({lwucm::name_of(record.severity), ucm_cts::to_utf8(record.message)});
         }
         return records;
     }
 
   private:
     static lwucm::Link& of_link(const ucm_cts::LinkHandle& link) { return *static_cast<lwucm::Link*>(link.get()); }
-
-    static std::shared_ptr<lwucm::Container> own(const Handle& container) {
-        return std::static_pointer_cast<lwucm::Container>(container);
-    }
 };
 
 }  // namespace

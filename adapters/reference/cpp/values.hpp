@@ -12,39 +12,9 @@
 #include <vector>
 
 #include <lwucm/interfaces.hpp>
-#include <ucm_cts/data_types.hpp>
+#include <ucm_cts/values.hpp>
 
 namespace reference_cpp {
-
-// text
-
-inline std::u32string from_utf8(const std::string& text) {
-    std::u32string characters;
-    std::size_t at = 0;
-    while (at < text.size()) {
-        const unsigned char first = static_cast<unsigned char>(text[at++]);
-        const int more = first < 0x80 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
-        char32_t character = more == 0 ? first : first & (0x3FU >> more);
-        for (int count = 0; count < more && at < text.size(); ++count) {
-            character = (character << 6) | (static_cast<unsigned char>(text[at++]) & 0x3FU);
-        }
-        characters.push_back(character);
-    }
-    return characters;
-}
-
-inline std::string to_utf8(const std::u32string& characters) {
-    std::string text;
-    for (const char32_t character : characters) {
-        const int more = character < 0x80 ? 0 : character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
-        const unsigned lead = more == 0 ? 0 : 0xFF00U >> (more + 1);
-        text.push_back(static_cast<char>((lead & 0xFFU) | (character >> (6 * more))));
-        for (int left = more; left > 0; --left) {
-            text.push_back(static_cast<char>(0x80U | ((character >> (6 * (left - 1))) & 0x3FU)));
-        }
-    }
-    return text;
-}
 
 // types
 
@@ -144,15 +114,6 @@ inline lwucm::InterfacePtr lwucm_interface(const ucm_cts::Interface& interface) 
 
 // values
 
-template <class Bits>
-std::string hexadecimal(Bits bits) {
-    std::string digits;
-    for (int shift = static_cast<int>(sizeof bits) * 8 - 4; shift >= 0; shift -= 4) {
-        digits.push_back("0123456789abcdef"[(bits >> shift) & 0xF]);
-    }
-    return digits;
-}
-
 inline ucm_cts::Datum to_datum(const lwucm::Value& value) {
     typedef lwucm::Value::Kind Kind;
     switch (value.kind()) {
@@ -163,13 +124,13 @@ inline ucm_cts::Datum to_datum(const lwucm::Value& value) {
         case Kind::natural:
             return value.as_natural();
         case Kind::single:
-            return hexadecimal(lwucm::same_bits<std::uint32_t>(value.as_single()));
+            return ucm_cts::from_float(value.as_single());
         case Kind::real:
-            return hexadecimal(lwucm::same_bits<std::uint64_t>(value.as_real()));
+            return ucm_cts::from_float(value.as_real());
         case Kind::character:
             return static_cast<std::uint32_t>(value.as_character());
         case Kind::string:
-            return to_utf8(value.as_string());
+            return ucm_cts::to_utf8(value.as_string());
         case Kind::enumerator:
             return value.as_enumerator();
         case Kind::list:
@@ -227,11 +188,9 @@ inline lwucm::Value to_value(const lwucm::Type& type, const ucm_cts::Datum& datu
             return datum.is_number_unsigned() ? lwucm::Value::natural(datum.get<std::uint64_t>())
                                               : lwucm::Value::integer(datum.get<std::int64_t>());
         case Kind::single:
-            return lwucm::Value::single(
-                lwucm::same_bits<float>(static_cast<std::uint32_t>(std::stoull(datum.get<std::string>(), nullptr, 16))));
+            return lwucm::Value::single(ucm_cts::to_float<float>(datum));
         case Kind::real:
-            return lwucm::Value::real(
-                lwucm::same_bits<double>(static_cast<std::uint64_t>(std::stoull(datum.get<std::string>(), nullptr, 16))));
+            return lwucm::Value::real(ucm_cts::to_float<double>(datum));
         case Kind::character8:
         case Kind::character32:
             return lwucm::Value::character(static_cast<char32_t>(datum.get<std::uint32_t>()));
@@ -239,7 +198,7 @@ inline lwucm::Value to_value(const lwucm::Type& type, const ucm_cts::Datum& datu
             return lwucm::Value::boolean(datum.get<bool>());
         case Kind::string8:
         case Kind::string32:
-            return lwucm::Value::string(from_utf8(datum.get<std::string>()));
+            return lwucm::Value::string(ucm_cts::from_utf8<std::u32string>(datum.get<std::string>()));
         case Kind::enumeration:
             return lwucm::Value::enumerator(datum.get<std::string>());
         case Kind::structure:

@@ -7,7 +7,9 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
+import msgspec
 from cpp_builds import LIFE, PAIR, PROVIDER, Builds, concurrent_scenarios, events, run, talk
+from fragment_framework import in_short, served
 
 from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
@@ -42,6 +44,57 @@ def test_other_spellings_of_12_10(builds: Builds) -> None:
         t.Reference("P", 1, "p_e")
     ]
     assert [e.error for e in trace if isinstance(e, t.Raise)] == ["UCM_ERROR", "NOT_FOUND"]
+
+
+def test_structures_with_accessors(builds: Builds) -> None:
+    called = s.Declaration(requires=("r_e",), attributes={"a": "1"}, plan={"on_startup": (s.CallPort("r_e", 4),)})
+    scenario = s.Scenario({"P": PROVIDER, "C": called}, LIFE)
+    hello, traced = talk(builds.program("accessors"), m.Hello(m.PROTOCOL), m.Run(1, scenario))[0]
+    assert isinstance(hello, m.Welcome)
+    assert hello.port_element_name == "{element} of {port}"
+    assert isinstance(traced, m.Traced), traced
+    trace = traced.events
+    assert [e.value for e in trace if isinstance(e, t.Reply)] == [~4]
+    assert [e.dependencies for e in trace if isinstance(e, t.Enter) and e.hook == "on_startup"] == [
+        (),
+        (t.Dependency("r_e", (t.Reference("P", 1, "p_e"),)),),
+    ]
+    assert [e.attributes for e in trace if isinstance(e, t.Enter) and e.hook == "on_init"] == [{}, {"a": "1"}]
+    assert [e for e in trace if isinstance(e, t.Raise)] == []
+
+
+def test_connectors_made_of_fragments(builds: Builds) -> None:
+    steps = (
+        s.GetComponents(),
+        s.Attach("l", "server", "S", "in"),
+        s.Detach("l", "C", "out"),
+        s.Stop(),
+        s.Detach("l", "C", "out"),
+        s.Detach("l", "C", "out"),
+        s.Link(s.SERVICE_CONNECTOR, "service", "m"),
+        s.Attach("m", "client", "C", "out"),
+        s.Attach("m", "client", "C", "none"),
+        s.Start(),
+        s.Invoke("go", 1),
+        s.Link(s.MESSAGE_CONNECTOR, "service", "n"),
+    )
+    trace = events(builds.program("cells"), served(*steps))
+    assert in_short(trace) == [((7,), False), 2, "UCM_ERROR", "UCM_ERROR", "NOT_FOUND", (None, True)]
+    assert [e.variable for e in trace if isinstance(e, t.Skip)] == ["link"]
+
+
+def test_policies_and_ids_of_other_frameworks(builds: Builds) -> None:
+    asks = s.CallMethod("clock_api", "get_local_time")
+    clock = s.Declaration(
+        plan={"on_startup": (asks, s.QuerySiblings())}, policies=(s.Policy(s.CLOCK, element="clock_api"),)
+    )
+    fragment = msgspec.structs.replace(clock, fragment=True, attributes={"a": "1"})
+    unknown = (s.RemoveComponent("unknown"), s.GetPortElement("F", "none", "x"), s.Connect("F", "out", "nil", "k"))
+    trace = events(builds.program("cells"), s.Scenario({"F": fragment}, (s.AddComponent("F"), s.Start(), *unknown)))
+    assert [e.results for e in trace if isinstance(e, t.Reply)] == [([1, 2],)]
+    assert [e.ids for e in trace if isinstance(e, t.Siblings)] == [(1,)]
+    assert [e.attributes for e in trace if isinstance(e, t.Enter) and e.hook == "on_init"] == [{"a": "1"}]
+    assert [e.error for e in trace if isinstance(e, t.Raise)] == ["NOT_FOUND", "NOT_FOUND", "BAD_PARAMETER"]
 
 
 def test_guide_module(builds: Builds) -> None:

@@ -2,14 +2,14 @@
 #include <atomic>
 
 #include <beans.hpp>
+#include <ucm_cts/binding.hpp>
 #include <ucm_cts/main.hpp>
 
-class ServiceReference : public ucm_cts::PortElement {
-  public:
-    explicit ServiceReference(const beans::Service& offered) : service(offered) {}
-    std::int32_t exchange(std::int32_t value) override { return service(value); }
+struct ServiceReference : ucm_cts::Wrapped<beans::Service> {
+    using Wrapped::Wrapped;
+    std::int32_t exchange(std::int32_t value) override { return own(value); }
     ucm_cts::Data call(const std::string& method, const ucm_cts::Data& arguments) override {
-        const beans::Speaker* const line = service.target<beans::Speaker>();
+        const beans::Speaker* const line = own.target<beans::Speaker>();
         if (line == nullptr) {
             return PortElement::call(method, arguments);  // throws: a service has no methods
         }
@@ -19,10 +19,10 @@ class ServiceReference : public ucm_cts::PortElement {
         }
         return answer.at(1);
     }
-    const beans::Service service;
 };
 
-class BeansAdapter : public ucm_cts::Adapter {
+// What the framework cannot do fails with UcmError: the operations that BareAdapter keeps.
+class BeansAdapter : public ucm_cts::BareAdapter {
   public:
     ucm_cts::ContainerHandle create_runtime(const std::vector<ucm_cts::Implementation>& implementations) override {
         for (const ucm_cts::Implementation& one : implementations) {
@@ -51,9 +51,8 @@ class BeansAdapter : public ucm_cts::Adapter {
 
     ucm_cts::Id connect(const ucm_cts::ContainerHandle&, ucm_cts::Id id, const std::string& port,
                         const ucm_cts::Reference& to) override {
-        const auto reference = std::dynamic_pointer_cast<ServiceReference>(to);
         int wire = 0;
-        check(kernel_->wire(std::to_string(id), port, reference ? reference->service : beans::Service(), wire));
+        check(kernel_->wire(std::to_string(id), port, ServiceReference::unwrap(to), wire));
         return wire;
     }
 
@@ -63,12 +62,8 @@ class BeansAdapter : public ucm_cts::Adapter {
 
     void start(const ucm_cts::ContainerHandle&) override { check(kernel_->run()); }
     void stop(const ucm_cts::ContainerHandle&) override { check(kernel_->halt()); }
-
-    // What a framework cannot do is answered with UcmError, and fails in the report.
-    std::vector<ucm_cts::Id> get_components(const ucm_cts::ContainerHandle&) override { missing(); }
-    ucm_cts::ContainerHandle create_container(const ucm_cts::ContainerHandle&) override { missing(); }
-    void remove_container(const ucm_cts::ContainerHandle&, const ucm_cts::ContainerHandle&) override { missing(); }
     void destroy(const ucm_cts::ContainerHandle&) override { check(kernel_->halt()); }
+
     ucm_cts::LinkHandle link(const ucm_cts::ContainerHandle&, const std::string& connector,
                              const ucm_cts::SharedInterface&) override {
         if (connector != "simple_service_connector") {
@@ -131,11 +126,11 @@ class BeansAdapter : public ucm_cts::Adapter {
         }
         bean.prepare = [body] { body->on_init(); };
         bean.activate = [body](const beans::Services& needs) {
-            std::vector<ucm_cts::PortConnection> connections;
+            std::vector<std::pair<std::string, ucm_cts::Reference>> pairs;
             for (const auto& need : needs) {
-                connections.push_back({need.first, {std::make_shared<ServiceReference>(need.second)}});
+                pairs.emplace_back(need.first, std::make_shared<ServiceReference>(need.second));
             }
-            body->on_startup(connections);
+            body->on_startup(ucm_cts::port_connections(pairs));
         };
         bean.deactivate = [body] { body->on_shutdown(); };
         bean.dispose = [body] { body->on_remove(); };
@@ -152,8 +147,6 @@ class BeansAdapter : public ucm_cts::Adapter {
             case beans::Code::bean_failed: throw ucm_cts::UcmError("a bean failed");
         }
     }
-
-    [[noreturn]] static void missing() { throw ucm_cts::UcmError("beans cannot do that"); }
 
     const std::shared_ptr<beans::Kernel> kernel_ = std::make_shared<beans::Kernel>();
     std::atomic<ucm_cts::Id> last_{0};

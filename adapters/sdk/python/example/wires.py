@@ -2,8 +2,8 @@
 
 import copy
 
-from beans import Missing, Trouble
-from my_adapter import BeansAdapter, declared_errors
+from beans import Trouble
+from my_adapter import BeansAdapter
 
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.programming_model import PortElementObject
@@ -38,15 +38,10 @@ class WiredBeansAdapter(BeansAdapter):
         return Wire()
 
     def attach(self, link, role, container, comp_instance, port_name):
-        with declared_errors():
-            bean = container.bean(self.beans.get(comp_instance))
-            if role == "client":
-                container.tie(self.beans[comp_instance], port_name, link)
-                return
-            element = bean.get_portElement(port_name)
-            if element is None:
-                raise Missing(port_name)
-            link.serve(element)
+        if role == "client":
+            self.connect(container, comp_instance, port_name, link)
+        else:
+            self.forward(link, "serve", self.get_port_element(container, comp_instance, port_name))
 
     def break_link(self, link, where):
         link.is_cut = True

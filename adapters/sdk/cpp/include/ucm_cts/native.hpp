@@ -3,9 +3,11 @@
 #define UCM_CTS_NATIVE_HPP
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ucm_cts/adapter.hpp"
@@ -78,16 +80,28 @@ class Runtime {
     const ContainerHandle manager_;
 };
 
+/// The name of a port element at the framework's API: `name`, which holds {port} and {element}, filled in.
+inline std::string spelled(std::string name, const std::string& port, const std::string& element) {
+    for (const auto& filled : {std::make_pair(std::string("{port}"), port), std::make_pair(std::string("{element}"), element)}) {
+        const std::size_t at = name.find(filled.first);
+        if (at != std::string::npos) {
+            name.replace(at, filled.first.size(), filled.second);
+        }
+    }
+    return name;
+}
+
 /// Mean duration in nanoseconds of one life cycle of a provider and a client, from creation to removal.
 inline double life_cycles(const std::shared_ptr<Adapter>& adapter, std::int64_t count) {
-    Runtime runtime(adapter, {native_implementation("provider", {"port_element"}, {}),
-                              native_implementation("client", {}, {"port_element"})});
+    const std::string port = spelled(adapter->port_element_name(), "port", "element");
+    Runtime runtime(adapter,
+                    {native_implementation("provider", {port}, {}), native_implementation("client", {}, {port})});
     const auto begin = std::chrono::steady_clock::now();
     for (std::int64_t n = 0; n < count; ++n) {
         const Id provider = runtime.add_component("provider");
         const Id client = runtime.add_component("client");
-        const Reference reference = runtime.get_port_element(provider, "port_element");
-        const Id connection = runtime.connect(client, "port_element", reference);
+        const Reference reference = runtime.get_port_element(provider, port);
+        const Id connection = runtime.connect(client, port, reference);
         runtime.start();
         if (reference->exchange(1) != ~1) {
             throw std::logic_error("exchange came back with a wrong value");

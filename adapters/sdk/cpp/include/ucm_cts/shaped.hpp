@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,18 +14,59 @@
 
 namespace ucm_cts {
 
+namespace detail {
+
+/// A name and value pair: by a constructor of all fields, by accessors (both 13.2.1), or by its fields.
+template <class Property>
+typename std::enable_if<std::is_constructible<Property, const std::string&, const std::string&>::value, Property>::type
+property(const std::string& name, const std::string& value, Rank<3>) {
+    return Property(name, value);
+}
+template <class Property>
+auto property(const std::string& name, const std::string& value, Rank<2>)
+    -> decltype(std::declval<Property&>().name(name), std::declval<Property&>().value(value), Property()) {
+    Property made;
+    made.name(name);
+    made.value(value);
+    return made;
+}
+template <class Property>
+auto property(const std::string& name, const std::string& value, Rank<1>)
+    -> decltype(std::declval<Property&>().name() = name, std::declval<Property&>().value() = value, Property()) {
+    Property made;
+    made.name() = name;
+    made.value() = value;
+    return made;
+}
+template <class Property>
+auto property(const std::string& name, const std::string& value, Rank<0>)
+    -> decltype(std::declval<Property&>().name = name, std::declval<Property&>().value = value, Property()) {
+    Property made;
+    made.name = name;
+    made.value = value;
+    return made;
+}
+
+/// Traits::port_element_name(), if the Traits have it.
+template <class Traits>
+auto port_element_name(int) -> decltype(std::string(Traits::port_element_name())) {
+    return Traits::port_element_name();
+}
+template <class Traits>
+std::string port_element_name(long) {
+    return "{port}_{element}";
+}
+
+}  // namespace detail
+
 /// Name and value pairs as a framework's Properties: `name` = `implementation`, then the attributes.
 template <class Properties>
 Properties properties(const std::string& name, const std::string& implementation, const Attributes& attributes) {
+    typedef typename Properties::value_type Property;
     Properties all;
-    all.resize(1 + attributes.size());
-    auto property = all.begin();
-    property->name = name;
-    property->value = implementation;
+    all.push_back(detail::property<Property>(name, implementation, detail::Rank<3>()));
     for (const auto& attribute : attributes) {
-        ++property;
-        property->name = attribute.first;
-        property->value = attribute.second;
+        all.push_back(detail::property<Property>(attribute.first, attribute.second, detail::Rank<3>()));
     }
     return all;
 }
@@ -46,8 +88,14 @@ Properties properties(const std::string& name, const std::string& implementation
 ///   - `static Data call(PortElementObject&, const std::string& method, const Data& arguments)`: calls a method of
 ///     any object that the framework handed over: what `typed` made, what stands before it, or the framework's own port element
 ///     for a policy. A declared exception leaves it as DeclaredException, any other as it is.
+/// `static std::string port_element_name()`, if it is there, says how port elements are named at the API: `{port}_{element}` or
+/// another text with both in it.
+///
+/// Structures of the framework may have fields, or the constructors and accessors of IDL to C++11 (13.2.1).
+///
 /// Connectors and the rest of profile core are operations of Adapter: derive from ShapedAdapter and override `link`,
-/// `attach`, ..., with `of`, `manager_` and `translate` at hand.
+/// `attach`, ..., with `of`, `shared`, `manager_` and `translate` at hand. For connectors made of fragments derive from
+/// FragmentConnectors<ShapedAdapter<Traits>> (fragments.hpp).
 template <class Traits>
 class ShapedAdapter : public Adapter {
   public:
@@ -122,12 +170,14 @@ class ShapedAdapter : public Adapter {
     }
 
     void remove_container(const ContainerHandle&, const ContainerHandle& sub_container) override {
-        translate([&] { manager_->remove_container(std::static_pointer_cast<Container>(sub_container)); });
+        translate([&] { manager_->remove_container(shared(sub_container)); });
     }
 
     void destroy(const ContainerHandle&) override {
         translate([&] { manager_->destroy(); });
     }
+
+    std::string port_element_name() const override { return detail::port_element_name<Traits>(0); }
 
   protected:
     /// The framework's own container behind a handle.
@@ -138,18 +188,16 @@ class ShapedAdapter : public Adapter {
         return *static_cast<Container*>(container.get());
     }
 
+    /// The same as a shared pointer; null for a null container.
+    static std::shared_ptr<Container> shared(const ContainerHandle& container) {
+        return std::static_pointer_cast<Container>(container);
+    }
+
     /// Calls `operation`; the framework's three exceptions become those of the SDK, all others pass.
     template <class Operation>
     static auto translate(Operation operation) -> decltype(operation()) {
-        try {
-            return operation();
-        } catch (const typename Traits::NOT_FOUND& error) {
-            throw NotFound(detail::text_of(error));
-        } catch (const typename Traits::BAD_PARAMETER& error) {
-            throw BadParameter(detail::text_of(error));
-        } catch (const typename Traits::UCM_ERROR& error) {
-            throw UcmError(detail::text_of(error));
-        }
+        return translated<typename Traits::NOT_FOUND, typename Traits::BAD_PARAMETER, typename Traits::UCM_ERROR>(
+            operation);
     }
 
     std::shared_ptr<ContainerManager> manager_;

@@ -3,7 +3,6 @@
 #define UCM_CTS_SHAPED_BODY_HPP
 
 #include <cstddef>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "ucm_cts/adapter.hpp"
+#include "ucm_cts/binding.hpp"
 
 namespace ucm_cts {
 namespace detail {
@@ -46,20 +46,27 @@ using Argument = typename std::tuple_element<N, typename Signature<Member>::Argu
 template <class Member>
 using Result = typename Signature<Member>::Result;
 
-inline std::string text_of(const std::exception& error) { return error.what(); }
+/// The first of several overloads that fits: a Rank<2> also fits where Rank<1> is wanted.
+template <int N>
+struct Rank : Rank<N - 1> {};
+template <>
+struct Rank<0> {};
 
-template <class Error>
-typename std::enable_if<!std::is_base_of<std::exception, Error>::value, std::string>::type text_of(const Error&) {
-    return std::string();  // exceptions of 12.10 have no members
-}
-
-/// The name in a PortConnection: `from_port` (12.10) or `port_name` (13.7).
+/// The name in a PortConnection: `from_port` (12.10) or `port_name` (13.7), a field or an accessor (13.2.1).
 template <class Connection>
-auto port_of(const Connection& connection, int) -> decltype(std::string(connection.from_port)) {
+auto port_of(const Connection& connection, Rank<3>) -> decltype(std::string(connection.from_port())) {
+    return connection.from_port();
+}
+template <class Connection>
+auto port_of(const Connection& connection, Rank<2>) -> decltype(std::string(connection.port_name())) {
+    return connection.port_name();
+}
+template <class Connection>
+auto port_of(const Connection& connection, Rank<1>) -> decltype(std::string(connection.from_port)) {
     return connection.from_port;
 }
 template <class Connection>
-auto port_of(const Connection& connection, long) -> decltype(std::string(connection.port_name)) {
+auto port_of(const Connection& connection, Rank<0>) -> decltype(std::string(connection.port_name)) {
     return connection.port_name;
 }
 
@@ -75,11 +82,19 @@ void for_each_reference(const Pointer& reference, Visit visit, long) {
     visit(reference);
 }
 template <class Connection>
-auto references_of(const Connection& connection, int) -> decltype((connection.to_port)) {
+auto references_of(const Connection& connection, Rank<3>) -> decltype(connection.to_port()) {
+    return connection.to_port();
+}
+template <class Connection>
+auto references_of(const Connection& connection, Rank<2>) -> decltype(connection.ref()) {
+    return connection.ref();
+}
+template <class Connection>
+auto references_of(const Connection& connection, Rank<1>) -> decltype((connection.to_port)) {
     return connection.to_port;
 }
 template <class Connection>
-auto references_of(const Connection& connection, long) -> decltype((connection.ref)) {
+auto references_of(const Connection& connection, Rank<0>) -> decltype((connection.ref)) {
     return connection.ref;
 }
 
@@ -236,9 +251,9 @@ class ShapedBody : public Base, public NamedFeatures {
         std::vector<PortConnection> connections;
         for (const auto& dependency : dependencies) {
             PortConnection connection;
-            connection.from_port = detail::port_of(dependency, 0);
+            connection.from_port = detail::port_of(dependency, detail::Rank<3>());
             detail::for_each_reference(
-                detail::references_of(dependency, 0),
+                detail::references_of(dependency, detail::Rank<3>()),
                 [&connection](const typename ShapedReference<Traits>::Pointer& reference) {
                     connection.to_port.push_back(ShapedReference<Traits>::wrap(reference));
                 },
