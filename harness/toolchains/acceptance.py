@@ -107,6 +107,15 @@ class Acceptance:
 
 def _not_applicable(statement: Statement) -> Mapping[str, str]:
     """The requirements that are tested only under readings that the vendor does not declare, and the declared ones."""
+    source = f"{statement.source} says" if statement.source else "without a statement it holds that"
+    return {
+        requirement: f"{source} {', '.join(f'{option} = {statement.readings[option]}' for option in sorted(unmet))}"
+        for requirement, unmet in untested(statement).items()
+    }
+
+
+def untested(statement: Statement) -> Mapping[str, frozenset[str]]:
+    """The requirements that are tested only under readings that the vendor does not declare, and the options concerned."""
     all_questions = questions()
     tested = {q.requirement for q in all_questions if all(map(statement.meets, q.under))}
     options: dict[str, set[str]] = {}
@@ -114,11 +123,7 @@ def _not_applicable(statement: Statement) -> Mapping[str, str]:
         if q.requirement not in tested:
             unmet = {need.partition("=")[0] for need in q.under if not statement.meets(need)}
             options.setdefault(q.requirement, set()).update(unmet)
-    source = f"{statement.source} says" if statement.source else "without a statement it holds that"
-    return {
-        requirement: f"{source} {', '.join(f'{option} = {statement.readings[option]}' for option in sorted(unmet))}"
-        for requirement, unmet in options.items()
-    }
+    return {requirement: frozenset(unmet) for requirement, unmet in options.items()}
 
 
 def renamed(chosen: Sequence[Question], renaming: Renaming) -> list[Question]:
