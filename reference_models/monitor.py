@@ -159,6 +159,9 @@ class _TraceReader:
         if ongoing is not None and ongoing.step_number == event.step:
             conclude(runtime, ongoing, event, self.monitor.expected)
             self.evaluate(self.table.ended[ongoing.operation], ongoing)
+            unsettled = self.table.unsettled[ongoing.operation]
+            if unsettled and not ongoing.judged and not verdicts.findings:
+                self.evaluate(unsettled, ongoing)
             if verdicts.suspended:
                 self.suspend()
             apply(runtime, ongoing, event)
@@ -242,6 +245,10 @@ class _TraceReader:
 
     def changes(self, member: Member, hook: s.Hook) -> None:
         """The state of ``member`` changes at this callback, not at the end of the operation."""
+        if hook in ("on_startup", "on_shutdown"):
+            member.phase = hook
+        elif hook == "on_remove":
+            member.told_of_removal = True
         if hook == "on_startup":
             member.closing = False
             known = self.ongoing is None or self.ongoing.operation != "connect"
@@ -283,6 +290,8 @@ class _TraceReader:
         hook = event.hook
         if thread.hooks:
             thread.hooks.pop()
+        if self.ongoing is not None and hook not in _BUSINESS:
+            self.ongoing.leave(event.body, hook)
         if hook == "on_startup":
             self.runtime.starting.add(event.body)
             self.runtime.starting_up.pop(event.body, None)

@@ -8,6 +8,9 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Hook, PortElementName
 from ucm_cts.adapters.contract.value import Int64, Value
 
+MOST = 10_000
+"""How many ids, records or dependencies one event may hold: far more than any scenario makes."""
+
 DeclaredError = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"]
 """The three exceptions of 12.10."""
 

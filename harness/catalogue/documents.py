@@ -5,7 +5,9 @@ Documents may be hostile: size is bounded, anchors, aliases, tags, several docum
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 import tomllib
 from pathlib import Path
 from typing import Any, TypeVar
@@ -71,7 +73,9 @@ def convert(path: Path, value: object, type_: type[T], lines: dict[str, int]) ->
 def read_text(path: Path, largest: int = LARGEST) -> str:
     """The text of the file at ``path``. Raises ``DocumentError`` if it cannot be read, is too large or not UTF-8."""
     try:
-        with path.open("rb") as stream:
+        with open(path, "rb", opener=without_waiting) as stream:
+            if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+                raise DocumentError(path, None, "is no plain file; write what it holds to a file, and give its name")
             raw = stream.read(largest + 1)
     except (OSError, ValueError) as error:
         raise DocumentError(path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
@@ -81,6 +85,11 @@ def read_text(path: Path, largest: int = LARGEST) -> str:
         return raw.decode("utf-8")
     except UnicodeDecodeError as error:
         raise DocumentError(path, raw[: error.start].count(b"\n") + 1, "is not UTF-8; save it as UTF-8") from None
+
+
+def without_waiting(path: str, flags: int) -> int:
+    """An opener for ``open`` that does not wait for the other end of a pipe."""
+    return os.open(path, flags | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
 
 
 def read_lines(path: Path) -> tuple[object, dict[str, int]]:

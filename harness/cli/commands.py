@@ -29,7 +29,7 @@ from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
-from ucm_cts.harness.report.diagrams.sequence_text import failure_text, replay_text
+from ucm_cts.harness.report.diagrams.sequence_text import failure_text, printed_text, replay_text
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean
 from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.harness.statement.writing import Wanted, write_statement, write_toolchain_statement
@@ -71,6 +71,13 @@ def cli() -> None:
     show_default=True,
     help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
 )
+@click.option(
+    "--explore",
+    type=options.DrawnScenarios(or_none=True),
+    default="3s",
+    show_default=True,
+    help="How long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s.",
+)
 @click.option("--failed-first", is_flag=True, help="Begin with what failed in the last run into the same --out.")
 @click.option("--resume", is_flag=True, help="Go on with the interrupted run in the same --out.")
 @click.option("--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement.")
@@ -91,6 +98,7 @@ def run(
     memory: int,
     incident_time: float,
     systematic: int,
+    explore: options.Budget,
     failed_first: bool,
     resume: bool,
     everything: bool,
@@ -121,6 +129,7 @@ def run(
             in_process=in_process,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,
+            explore=explore,
             everything=everything,
             failed_first=failed_first,
             resume=resume,
@@ -129,7 +138,7 @@ def run(
     )
 
 
-OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "resume")
+OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "explore", "resume")
 """Options of ``run`` that tool chains do not have."""
 
 
@@ -226,10 +235,13 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
     console = Output()
     failed = False
     with ends_like_interrupts(), Driver(endpoint, seed or 0, Limits(timeout)) as driver:
-        for answer in driver.run((script.scenario, to_scenario(script)) for script in scripts):
+        for script in scripts:
+            (answer,) = driver.run([(script.scenario, to_scenario(script))])
             execution = driver.revealed(answer)
             console.out(f"{execution.name} on {options.name_of(driver.identity)}\n", highlight=False)
             console.out(replay_text(execution), highlight=False)
+            if answer.printed.strip():
+                console.out(printed_text(answer.printed, file, adapter), highlight=False)
             if execution.incident is not None:
                 failed = True
                 text = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
@@ -260,7 +272,7 @@ def main() -> None:
         error.show()
         sys.exit(options.WRONG_USE)
     except (WrongUse, DocumentError, HostUnavailable) as error:
-        click.echo(f"ucm-cts: {error}", err=True)
+        click.echo(f"ucm-cts: {clean(str(error))}", err=True)
         sys.exit(options.WRONG_USE)
     except (click.exceptions.Abort, KeyboardInterrupt):
         click.echo("ucm-cts: interrupted", err=True)

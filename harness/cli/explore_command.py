@@ -3,68 +3,36 @@
 from __future__ import annotations
 
 import random
-import re
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import click
 from rich.progress import Progress, TaskID, TimeElapsedColumn, TimeRemainingColumn
 
 from ucm_cts.harness.cli import options
+from ucm_cts.harness.cli.options import Budget
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.exploration import Exploration, Replayed
 from ucm_cts.harness.exploring.exploration import Progress as HowFar
-from ucm_cts.harness.exploring.memory import Memory, Remembered, open_databases
-from ucm_cts.harness.exploring.printing import FILE, exploration_file, found_text, is_found, known_text, mishaps
+from ucm_cts.harness.exploring.memory import Memory, open_databases
+from ucm_cts.harness.exploring.printing import FILE, exploration_file, found_text, is_found, known_text
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.report.write import FAILURE_FILES, failure_files, keep_files, report_folder
-from ucm_cts.harness.results.incidents import finding_of_incident
-from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.files import check_subject, stated_by
 
 FOR_INCIDENTS = 0.5
 """The part of the budget that crashes and hangs may take before scenarios that would meet more of them are left out."""
-
-_UNITS = {"s": 1, "m": 60, "h": 3600}
-
-
-@dataclass(frozen=True)
-class Budget:
-    """The budget: a number of seconds, or a number of scenarios."""
-
-    amount: float
-    is_time: bool = True
-
-    def spent(self, far: HowFar, seconds: float) -> float:
-        """The part of ``amount`` that is used up."""
-        return seconds if self.is_time else far.scenarios
-
-
-class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 8.2
-    """A budget as people write it."""
-
-    name = "budget"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Budget:
-        match = re.fullmatch(r"(\d{1,9})(s|m|h|scenarios)|(\d{1,6}\.\d{1,3})(s|m|h)", str(value))
-        if match is None or not float(match[1] or match[3]):
-            self.fail(
-                f"'{value}' is no budget; write a time or a number of scenarios: 60s, 5m, 2h, 500scenarios.", param, ctx
-            )
-        amount, unit = float(match[1] or match[3]), match[2] or match[4]
-        return Budget(amount * _UNITS[unit]) if unit in _UNITS else Budget(amount, is_time=False)
 
 
 @click.command()
 @options.adapter_argument
 @click.option(
     "--budget",
-    type=_Budget(),
+    type=options.DrawnScenarios(),
     default="60s",
     show_default=True,
     help="How long to draw scenarios, or how many: 60s, 5m, 2h, 500scenarios.",
@@ -114,13 +82,13 @@ def explore(
         database = open_databases(databases or [str(out / "examples")])
         memory = Memory(database, identity.product, profile)
         options.greet(console, f"exploring {options.name_of(identity)}", profile, drawn)
-        exploration = Exploration(driver, profile, statement, memory)
-        known, far, interrupted = _explore(exploration, memory, budget, console)
+        campaign = Campaign(driver, profile, (), statement)
+        known, far, interrupted = _explore(campaign, Exploration(campaign, drawn, memory), memory, budget, console)
         with interrupts.held():
-            report = exploration.report()
+            report = campaign.report()
             files = {**failure_files(report), FILE: exploration_file(report, far, known)}
             saved = keep_files(files, folder, (*FAILURE_FILES, FILE))
-            _remember(report, memory)
+            memory.remember_all(report)
     console.print(found_text(report, far, saved.place or out))
     if saved.problem:
         where = f"they are in '{saved.place}'" if saved.place is not None else "no folder took them"
@@ -135,7 +103,7 @@ def explore(
 
 
 def _explore(
-    exploration: Exploration, memory: Memory, budget: Budget, console: Output
+    campaign: Campaign, exploration: Exploration, memory: Memory, budget: Budget, console: Output
 ) -> tuple[list[Replayed], HowFar, bool]:
     """The failures that are still there, the scenarios run, and whether the run was interrupted."""
     known: list[Replayed] = []
@@ -148,12 +116,14 @@ def _explore(
                 console.print(known_text(known, memory.unreadable))
             began = time.monotonic()
             for far in exploration.explore():
-                spent = budget.spent(far, time.monotonic() - began)
+                spent = budget.spent(far.scenarios, time.monotonic() - began)
                 _show(progress, task, far, spent)
                 if spent >= budget.amount:
                     break
             progress.update(task, description="shortening scenarios of failures", completed=budget.amount)
-            exploration.finish()
+            campaign.confirm(passes=False)
+            for _ in campaign.shorten():
+                pass
         except KeyboardInterrupt:
             return known, far, True
     return known, far, False
@@ -164,13 +134,3 @@ def _show(progress: Progress, task: TaskID, far: HowFar, spent: float) -> None:
         f"{far.scenarios} scenarios, {far.rows} of {far.of} rows, {far.events} pairs of events, {far.failures} failures"
     )
     progress.update(task, description=text, completed=spent)
-
-
-def _remember(report: FrameworkReport, memory: Memory) -> None:
-    for result in report.requirements:
-        for failed in result.findings:
-            if failed.execution is not None and not failed.unstable:
-                memory.remember(Remembered.of_finding(failed.finding, failed.execution.scenario))
-    for _, item in mishaps(report):
-        if item.incident.kind != "unreachable" and finding_of_incident(item.execution) is None:
-            memory.remember(Remembered.of_incident(item.execution))

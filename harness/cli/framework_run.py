@@ -15,13 +15,15 @@ import ucm_cts
 from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.cli.last_run import failed_in
-from ucm_cts.harness.cli.options import greet, leave_with, name_of, nothing_selected
+from ucm_cts.harness.cli.options import Budget, greet, leave_with, name_of, nothing_selected
 from ucm_cts.harness.cli.run_checkpoints import CHECKPOINTS, Checkpoints
 from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.repeating import repeated, steady_search
+from ucm_cts.harness.exploring.exploration import DRAWN, KNOWN, Exploration
+from ucm_cts.harness.exploring.memory import Memory, open_databases
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -35,6 +37,9 @@ from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import check_subject, stated_by
 
+EXAMPLES = "examples"
+"""The folder, within that of the report, of failures that drawn scenarios showed."""
+
 KEPT_EVERY = 60
 """After so many seconds, what a run has measured is kept again."""
 
@@ -43,7 +48,8 @@ KEPT_EVERY = 60
 class FrameworkRun:
     """What a user wants: the arguments of ``ucm-cts run``.
 
-    ``seed``: of the first run; ``is_seeded``: the user named it. ``everything``: the summary lists everything.
+    ``seed``: of the first run; ``is_seeded``: the user named it. ``explore``: what drawing scenarios may cost after the test
+    purposes of a whole profile. ``everything``: the summary lists everything.
     """
 
     adapter: str
@@ -57,6 +63,7 @@ class FrameworkRun:
     in_process: bool
     limits: Limits
     systematic: int
+    explore: Budget
     everything: bool
     failed_first: bool
     resume: bool
@@ -89,6 +96,7 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
         if wanted.expression:
             report = of_selection(report, wanted.expression, asked_by(purposes, wanted.expression))
         saved = keep_report(report, folder, () if report.incomplete else CHECKPOINTS)
+        series.remember(report)
         leave_with(console, report, saved, known, wanted.everything)
 
 
@@ -115,6 +123,7 @@ class _Series:
         self._console = console
         self._interrupts = interrupts
         self._seed = wanted.seed
+        self._explore = Budget(0) if wanted.expression else wanted.explore
         self._is_greeted = False
         self._state: CampaignState | None = None
         self.reports: list[FrameworkReport] = []
@@ -214,12 +223,49 @@ class _Series:
                     kept = time.monotonic()
                 if self._interrupts.came:
                     raise KeyboardInterrupt
+            if self._explore.amount:
+                progress.update(task, description=f"{which}drawing scenarios")
+                failing += self._draw(campaign)
             progress.update(task, description=f"{which}confirming failures")
             campaign.confirm()
             if failing:
                 progress.update(task, description=f"{which}shortening scenarios of failures")
                 for _ in campaign.shorten():
                     pass
+
+    def _draw(self, campaign: Campaign) -> int:
+        """Try failures that drawn scenarios showed before, then draw scenarios. Returns how many causes of failure they show.
+
+        All runs of a series draw the same scenarios, as far as the framework does the same.
+        """
+        kept = self._wanted.out / EXAMPLES
+        memory = self._memory(campaign.report()) if kept.is_dir() and not kept.is_symlink() else None
+        exploration = Exploration(campaign, self._seed, memory, may_wait=True)
+        known = exploration.replay()
+        began, failures, far = time.monotonic(), 0, 0
+        for progress in exploration.explore():
+            failures, far = progress.failures, progress.scenarios
+            if self._interrupts.came:
+                raise KeyboardInterrupt
+            if self._explore.spent(far, time.monotonic() - began) >= self._explore.amount:
+                break
+        campaign.count("scenarios drawn at random", far)
+        self._explore = Budget(far, is_time=False)
+        return max(failures, sum(one.fate == "still there" for one in known))
+
+    def remember(self, report: FrameworkReport) -> None:
+        """Keep the failures that drawn scenarios showed: the next run into the same folder tries them again."""
+        named = (DRAWN, KNOWN)
+        shown_by = [found.execution for result in report.requirements for found in result.findings]
+        shown_by += [item.execution for item in report.incidents]
+        if any(execution is not None and execution.name.startswith(named) for execution in shown_by):
+            try:
+                self._memory(report).remember_all(report, named)
+            except (OSError, WrongUse) as error:
+                self._console.say(f"failures of drawn scenarios are not kept for the next run: {error}")
+
+    def _memory(self, report: FrameworkReport) -> Memory:
+        return Memory(open_databases([str(self._wanted.out / EXAMPLES)]), report.product, report.profile)
 
 
 class _Misfit(WrongUse):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
@@ -31,14 +33,51 @@ CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
 """Exit statuses; NOT_CONFORMANT includes inconclusive runs."""
 
 
+_UNITS = {"s": 1, "m": 60, "h": 3600}
+MOST_SECONDS = 86_400
+"""The longest time that an option can give."""
+
+
 class Seconds(click.FloatRange):
     """A finite number of seconds."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         seconds = super().convert(value, param, ctx)
+        if seconds > MOST_SECONDS and math.isfinite(seconds):
+            self.fail(f"'{value}' is longer than a day; give at most {MOST_SECONDS} seconds.", param, ctx)
         if not math.isfinite(seconds):
             self.fail(f"'{value}' is no number of seconds.", param, ctx)
         return seconds
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What drawing scenarios may cost: a number of seconds, or of scenarios."""
+
+    amount: float
+    is_time: bool = True
+
+    def spent(self, scenarios: int, seconds: float) -> float:
+        """The part of ``amount`` that is used up."""
+        return seconds if self.is_time else scenarios
+
+
+class DrawnScenarios(click.ParamType):  # type: ignore[type-arg] # generic since click 8.2
+    """A budget as people write it. It may be nothing if ``or_none``."""
+
+    name = "budget"
+
+    def __init__(self, or_none: bool = False) -> None:
+        self._or_none = or_none
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Budget:
+        match = re.fullmatch(r"(\d{1,9})(s|m|h|scenarios)|(\d{1,6}\.\d{1,3})(s|m|h)", str(value))
+        if match is None or not (self._or_none or float(match[1] or match[3])):
+            self.fail(
+                f"'{value}' is no budget; write a time or a number of scenarios: 60s, 5m, 2h, 500scenarios.", param, ctx
+            )
+        amount, unit = float(match[1] or match[3]), match[2] or match[4]
+        return Budget(amount * _UNITS[unit]) if unit in _UNITS else Budget(amount, is_time=False)
 
 
 class Folder(click.Path):

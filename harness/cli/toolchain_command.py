@@ -75,6 +75,8 @@ def certify_toolchain(
         incomplete = _conduct(campaign, len(examination.models), console, interrupts)
         if not campaign.is_judged:
             campaign.judge()
+        for warning in campaign.warnings():
+            console.say(f"warning: {warning}")
         report = ended_early(campaign.report(), incomplete)
         if expression:
             report = of_selection(report, expression, asked | campaign.asked_by(words_of(expression)))

@@ -138,6 +138,8 @@ class BodyChecks:
         if frame is None or frame.body is None:
             return self.why_outside(event)
         frame.acts.append(event)
+        if isinstance(event, t.Siblings) and len(event.ids) > t.MOST:
+            return f"get_components of the container interface returned more than {t.MOST} ids"
         if isinstance(event, t.Pushed):
             answers = sum(event.answers.values())
             return None if answers == event.count else f"{answers} answers to {event.count} messages"

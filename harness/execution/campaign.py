@@ -17,8 +17,9 @@ from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, ti
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.provocations.coverage import provocations
 from ucm_cts.harness.purposes.scripts import TestPurpose
-from ucm_cts.harness.results.incidents import finding_of_incident
+from ucm_cts.harness.results.incidents import finding_of_incident, is_waiting
 from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.tally import Cause, Tally, overall
@@ -30,6 +31,9 @@ from ucm_cts.reference_models.verdicts import Verdicts
 
 SECONDS_FOR_CONFIRMATION = 60
 """How long all further runs may take; failures that were not run again by then count as they are."""
+
+WAITED = "drawn scenarios that waited for a start"
+"""The measure of how many scenarios hung in a call that may wait for a start, and say nothing (11.2.3)."""
 
 NOT_CONFIRMED = "failures that were not run again"
 """The measure of how many failures were not run again because the time was used up."""
@@ -53,12 +57,9 @@ class Campaign:
         profile: str,
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
-        watch: Callable[[Answer, Verdicts], None] | None = None,
     ) -> None:
-        """``watch`` gets each answer with a trace, and the verdicts on it."""
         self._driver = driver
-        self._watch = watch
-        self._profile = profile
+        self.profile = profile
         self.known = known_failures
         self.statement = statement or default_statement()
         self.checked: list[TestPurpose] = []
@@ -74,10 +75,13 @@ class Campaign:
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
-    def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
+    def check(
+        self, purposes: Iterable[TestPurpose], watch: Callable[[Answer, Verdicts], None] | None = None
+    ) -> Iterator[Checked]:
         """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged.
 
-        Those that were done in a state that was restored are left out.
+        Those that were done in a state that was restored are left out. ``watch`` gets each answer with a trace, and the
+        verdicts on it.
         """
         queue: list[TestPurpose] = []
         before = frozenset(self._done)
@@ -96,7 +100,7 @@ class Campaign:
         since = time.monotonic()
         for answer in answers:
             purpose = queue[0]
-            failures.extend(self._take(answer, purpose))
+            failures.extend(self._take(answer, purpose, watch))
             is_lost |= answer.incident is not None and answer.incident.kind not in FRAMEWORK_INCIDENTS
             done += 1
             if done == len(purpose.scenarios):
@@ -116,10 +120,16 @@ class Campaign:
         """Its scenarios; where values are drawn, within what the vendor says of them."""
         return purpose.draw(self._driver.seed, self.statement.ics.readings) if purpose.draw else purpose.scenarios
 
-    def _take(self, answer: Answer, purpose: TestPurpose) -> Iterator[tuple[Finding | None, Execution]]:
+    def _take(
+        self, answer: Answer, purpose: TestPurpose, watch: Callable[[Answer, Verdicts], None] | None
+    ) -> Iterator[tuple[Finding | None, Execution]]:
         if answer.incident is not None:
             execution = self._driver.revealed(answer)
             judged = list(self._judge_hang(answer, execution)) if answer.is_whole else []
+            if purpose.may_wait and is_waiting(execution):
+                self._tally.measures[WAITED] += 1
+                yield from judged
+                return
             finding = finding_of_incident(execution)
             if finding is not None and any(set(other.events) & set(finding.events) for other, _ in judged):
                 finding = None  # a property has found the same call, or operation, lacking
@@ -128,8 +138,9 @@ class Campaign:
             yield from judged
             return
         verdicts = self._monitor.judge(answer.disguised, answer.trace)
-        if self._watch is not None:
-            self._watch(answer, verdicts)
+        self._tally.provoked.update(p.name for p in provocations(answer.disguised, answer.trace))
+        if watch is not None:
+            watch(answer, verdicts)
         if not verdicts.findings:
             self._tally.add(Execution(answer.name, answer.scenario, answer.trace), verdicts, ())
             for requirement in timed_requirements().intersection(verdicts.exercises).difference(self._timed):
@@ -217,6 +228,10 @@ class Campaign:
         """Search the shortest scenario of each failure; yields each cause when it is done."""
         yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
 
+    def count(self, measure: str, times: int) -> None:
+        """Add ``times`` to a measure of the run's effort."""
+        self._tally.measures[measure] += times
+
     @property
     def state(self) -> CampaignState:
         """What was measured so far, to be restored in another campaign of the same purposes."""
@@ -240,12 +255,14 @@ class Campaign:
         return FrameworkReport(
             product=identity.product,
             version=identity.version,
-            profile=self._profile,
+            profile=self.profile,
             verdict=overall(results, incidents, incomplete),
             requirements=results,
             transitions=self._tally.transitions(load_life_cycle()),
             incidents=incidents,
             adapter=self._driver.adapter,
+            adapter_file=self._driver.adapter_file,
+            warnings=self._driver.warnings,
             suite_version=ucm_cts.__version__,
             seed=self._driver.seed,
             started=self._started,
@@ -254,6 +271,7 @@ class Campaign:
             events=self._tally.events,
             statement=self.statement,
             readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},
+            provoked=dict(sorted(self._tally.provoked.items())),
             effort=Effort(
                 dict(self._tally.measures.most_common()),
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},

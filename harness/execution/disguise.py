@@ -22,9 +22,13 @@ from ucm_cts.adapters.contract.traits import Binds, Names, fields
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.payloads import EDGES, LARGEST
+from ucm_cts.harness.results.foreign import one_line
 
 T = TypeVar("T")
 S = TypeVar("S", bound=Value)
+
+LONGEST_NAME = 100
+"""Characters that the pattern of names of port elements may have."""
 
 _LETTERS = "bcdfghjklmnpqrstvwxz"
 
@@ -194,12 +198,14 @@ def _as_json(text: str) -> str:
 
 
 def _check(port_element_name: str) -> None:
+    """Only ``{port}`` and ``{element}`` as they are: a format specification or conversion can take any time and memory."""
     try:
-        fields = [name for _, name, _, _ in string.Formatter().parse(port_element_name) if name is not None]
-        port_element_name.format(port="", element="")
-    except (ValueError, LookupError, AttributeError):
-        fields = []
-    if sorted(fields) != ["element", "port"]:
+        parts = [part[1:] for part in string.Formatter().parse(port_element_name) if part[1] is not None]
+    except ValueError:
+        parts = []
+    plain = sorted(parts) == [("element", "", None), ("port", "", None)]
+    if not plain or len(port_element_name) > LONGEST_NAME or not port_element_name.isprintable():
         raise WrongUse(
-            f"the adapter spells port elements '{port_element_name}'; that must hold {{port}} and {{element}} once each"
+            f"the adapter spells port elements '{one_line(port_element_name, 80)}'; that must hold {{port}} and {{element}} "
+            f"once each, without a format, in at most {LONGEST_NAME} printable characters"
         )

@@ -22,7 +22,7 @@ from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
-from ucm_cts.harness.hosting.locate import Endpoint
+from ucm_cts.harness.hosting.locate import Endpoint, namesakes
 from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 
@@ -34,6 +34,9 @@ _EMPTY = Scenario({}, ())
 
 MOST_UNTRIED = 32
 """How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
+
+_SHOWN = 5
+"""How many kinds of processes a warning names."""
 
 _HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbage", "protocol"}
 
@@ -47,6 +50,7 @@ class Answer:
     ``disguised``: as the framework got it, with random names.
     ``trace``: in the names of ``disguised``; after an incident the known part.
     ``incident``: what went wrong with the host, if anything.
+    ``printed``: what the host printed meanwhile.
     ``is_whole``: the trace is complete, although threads never came back.
     """
 
@@ -56,6 +60,7 @@ class Answer:
     trace: Trace
     incident: Incident | None = None
     is_whole: bool = False
+    printed: str = ""
 
 
 @dataclass(frozen=True)
@@ -78,6 +83,7 @@ class Driver:
 
     def __init__(self, endpoint: Endpoint, seed: int, limits: Limits | None = None) -> None:
         self._hosts = Hosts(endpoint, limits)
+        self._endpoint = endpoint
         self.adapter = endpoint.text
         self.seed = seed
         self.gaps = ClockGaps()
@@ -99,6 +105,20 @@ class Driver:
     def identity(self) -> Welcome:
         """The implementation under test. Starts a host; raises ``WrongUse`` or ``HostUnavailable`` if there is none."""
         return self._hosts.welcome
+
+    @property
+    def adapter_file(self) -> str:
+        """The file that the adapter was loaded from; empty as long as it is not known."""
+        return self._hosts.file
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the vendor should know of the adapter, a sentence each."""
+        left = self._hosts.left_behind
+        others = tuple(namesakes(self._endpoint, self._hosts.file))
+        shadowed = f"the adapter is {self._hosts.file}; another of its name is {', '.join(others)}"
+        behind = f"hosts left {left.total()} processes behind, which were ended: {', '.join(sorted(left)[:_SHOWN])}"
+        return (*((shadowed,) if others else ()), *((behind,) if left else ()))
 
     @property
     def disguise(self) -> Disguise:
@@ -150,7 +170,7 @@ class Driver:
                     if incident is not None and lost:
                         self._incident_time.spend(time.monotonic() - began, case.run.scenario, incident, trace)
                     is_whole = isinstance(reply.reply, Traced) and incident is not None and incident.kind == "hang"
-                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, is_whole)
+                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, is_whole, reply.printed)
                     if lost:
                         break
                     began = time.monotonic()

@@ -240,6 +240,8 @@ class _Check(BodyChecks):
         value = event.value
         if (step.returns == "records") != (event.records is not None):
             return f"{s.operation(step)} returned {'no ' if event.records is None else ''}records"
+        if max(len(value) if isinstance(value, tuple) else 0, len(event.records or ())) > t.MOST:
+            return f"{s.operation(step)} returned more than {t.MOST} ids or records"
         if not _fits(value, step.returns):
             return f"{s.operation(step)} cannot return {value!r}"
         if isinstance(value, t.Reference) and value.instance > len(self.made.get(value.component, ())):

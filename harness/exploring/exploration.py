@@ -17,7 +17,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.campaign import Campaign, Checked
-from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.driver import Answer
 from ucm_cts.harness.exploring.changing import changed
 from ucm_cts.harness.exploring.core_writer import CoreWriter
 from ucm_cts.harness.exploring.memory import Identity, Memory, Remembered
@@ -28,9 +28,14 @@ from ucm_cts.harness.results.incident_causes import IncidentCause, cause_of_inci
 from ucm_cts.harness.results.incidents import is_waiting
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Cause, cause_of
-from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import fitting
 from ucm_cts.reference_models.verdicts import Verdicts
+
+DRAWN = "explored"
+"""The names of drawn scenarios begin so."""
+
+KNOWN = "known"
+"""The names of remembered scenarios begin so."""
 
 CANDIDATES = 4
 """So many scenarios are compared for one that is sent."""
@@ -79,14 +84,17 @@ class Replayed:
 
 
 class Exploration:
-    """Looks for failures of the driver's implementation. Use ``replay``, ``explore`` and ``finish`` in this order."""
+    """Looks for failures with the scenarios that it draws, and adds them to a campaign. Use ``replay`` before ``explore``."""
 
-    def __init__(self, driver: Driver, profile: str, statement: Statement, memory: Memory) -> None:
-        self._profile = profile
-        self._statement = statement
+    def __init__(self, campaign: Campaign, seed: int, memory: Memory | None, may_wait: bool = False) -> None:
+        """``seed``: of the scenarios. ``memory``: the failures known so far, if any are kept. ``may_wait``: a call that waits for a start that
+        never comes is no incident.
+        """
+        self._statement: Statement = campaign.statement
         self._memory = memory
-        self._campaign = Campaign(driver, profile, (), statement, self._watch)
-        self._random = random.Random(f"exploration {driver.seed}")
+        self._campaign = campaign
+        self._may_wait = may_wait
+        self._random = random.Random(f"exploration {seed}")
         self._all_rows = load_life_cycle().rows
         self._guide = Guide(load_life_cycle())
         self._events = Events()
@@ -99,10 +107,12 @@ class Exploration:
 
     def replay(self) -> list[Replayed]:
         """Run the remembered failures. One that is not shown any more is forgotten, unless an incident came first."""
+        if self._memory is None:
+            return []
         remembered = missing = self._memory.recall()
         answered: set[Identity] = set()
         for attempt in range(1, TRIES + 1):
-            again = (_purpose(f"known {n}.{attempt}", one.scenario) for n, one in enumerate(missing, 1))
+            again = (self._purpose(f"{KNOWN} {n}.{attempt}", one.scenario) for n, one in enumerate(missing, 1))
             for one, checked in zip(missing, self._check(again), strict=True) if missing else ():
                 if _is_decided(one, checked):
                     answered.add(one.identity)
@@ -129,19 +139,9 @@ class Exploration:
             if in_vain >= IN_VAIN or "unreachable" in kinds:
                 return
 
-    def finish(self) -> None:
-        """Confirm the failures, and shorten the confirmed ones."""
-        self._campaign.confirm(passes=False)
-        for _ in self._campaign.shorten():
-            pass
-
-    def report(self) -> FrameworkReport:
-        """All that was found."""
-        return self._campaign.report()
-
     def _check(self, purposes: Iterator[TestPurpose]) -> Iterator[Checked]:
-        for checked in self._campaign.check(purposes):
-            self._campaign.checked.clear()  # an exploration has no end
+        for checked in self._campaign.check(purposes, self._watch):
+            self._campaign.checked.pop()  # an exploration has no end
             for finding, execution in checked.failures:
                 if finding is not None:
                     self._causes.add(cause_of(finding))
@@ -155,9 +155,9 @@ class Exploration:
     def _purposes(self) -> Iterator[TestPurpose]:
         for number in count(1):
             known = [scenario for found, scenario in self._new if found <= number - LAG]
-            of_core = "core" in PARTS[self._profile] and number % 2 == 0
+            of_core = "core" in PARTS[self._campaign.profile] and number % 2 == 0
             draw = self._draw_core if of_core else partial(self._draw, known)
-            yield _purpose(f"explored {number}", self._guide.choose([draw() for _ in range(CANDIDATES)]))
+            yield self._purpose(f"{DRAWN} {number}", self._guide.choose([draw() for _ in range(CANDIDATES)]))
 
     def _draw(self, known: Sequence[Scenario]) -> Scenario:
         choose = self._random.choice
@@ -172,6 +172,10 @@ class Exploration:
             if drawn:
                 return drawn[0][1]
         return self._draw(())
+
+    def _purpose(self, name: str, scenario: Scenario) -> TestPurpose:
+        text = "A random scenario, drawn for this run."
+        return TestPurpose(name, "explored", text, (), ((name, scenario),), may_wait=self._may_wait)
 
     def _watch(self, answer: Answer, verdicts: Verdicts) -> None:
         self._rows |= verdicts.rows.keys()
@@ -192,7 +196,3 @@ def _fate(is_missing: bool, is_gone: bool) -> Fate:
     if is_gone:
         return "no longer shown"
     return "unknown" if is_missing else "still there"
-
-
-def _purpose(name: str, scenario: Scenario) -> TestPurpose:
-    return TestPurpose(name, "explored", "A random scenario, drawn for this run.", (), ((name, scenario),))

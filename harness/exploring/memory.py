@@ -20,8 +20,9 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incident_causes import IncidentCause, cause_of_incident
+from ucm_cts.harness.results.incidents import finding_of_incident, is_waiting
 from ucm_cts.harness.results.tally import cause_of
-from ucm_cts.harness.results.values import Execution, IncidentKind
+from ucm_cts.harness.results.values import Execution, FrameworkReport, IncidentKind, IncidentReport
 from ucm_cts.reference_models.findings import Finding
 
 if TYPE_CHECKING:
@@ -108,6 +109,19 @@ class Memory:
             if entry is not None and entry.identity == failure.identity and known != value:
                 self._database.delete(self._key, known)
 
+    def remember_all(self, report: FrameworkReport, named: tuple[str, ...] = ("",)) -> None:
+        """Keep the failures of ``report`` whose scenarios have names that begin with one of ``named``."""
+        for result in report.requirements:
+            for failed in result.findings:
+                shown_by = failed.execution
+                if shown_by is not None and not failed.unstable and shown_by.name.startswith(named):
+                    self.remember(Remembered.of_finding(failed.finding, shown_by.scenario))
+        for _, item in mishaps(report):
+            if item.incident.kind == "unreachable" or not item.execution.name.startswith(named):
+                continue
+            if finding_of_incident(item.execution) is None:
+                self.remember(Remembered.of_incident(item.execution))
+
     def forget(self, cause: Identity) -> None:
         """Forget ``cause``. Entries of read-only databases stay."""
         for known, entry in self._entries():
@@ -116,6 +130,21 @@ class Memory:
 
     def _entries(self) -> list[tuple[bytes, Remembered | None]]:
         return [(value, _read(value)) for value in set(self._database.fetch(self._key))]
+
+
+def mishaps(report: FrameworkReport) -> list[tuple[int, IncidentReport]]:
+    """The numbered incidents, without scenarios left out and without calls that may wait for a start that never comes.
+
+    Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
+    """
+    waiting = [is_waiting(item.execution) for item in report.incidents]
+    return [
+        (number, item)
+        for number, item in enumerate(report.incidents)
+        if item.incident.kind != "untried"
+        and not waiting[number]
+        and not (any(waiting) and item.incident.kind == "hang" and not item.execution.trace)
+    ]
 
 
 def _read(value: bytes) -> Remembered | None:

@@ -13,7 +13,7 @@ from rich.text import Text
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.exploring.exploration import Fate, Progress, Replayed
-from ucm_cts.harness.exploring.memory import Remembered
+from ucm_cts.harness.exploring.memory import Remembered, mishaps
 from ucm_cts.harness.report.summary import cut
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
@@ -106,21 +106,6 @@ class Found(Value, frozen=True):
 def is_found(report: v.FrameworkReport) -> bool:
     """Whether anything failed, or hung where waiting for ever is not permitted."""
     return bool(mishaps(report)) or any(result.verdict == "fail" and result.decides for result in report.requirements)
-
-
-def mishaps(report: v.FrameworkReport) -> list[tuple[int, v.IncidentReport]]:
-    """The numbered incidents, without scenarios left out and without calls that may wait for a start that never comes.
-
-    Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
-    """
-    waiting = [is_waiting(item.execution) for item in report.incidents]
-    return [
-        (number, item)
-        for number, item in enumerate(report.incidents)
-        if item.incident.kind != "untried"
-        and not waiting[number]
-        and not (any(waiting) and item.incident.kind == "hang" and not item.execution.trace)
-    ]
 
 
 def exploration_file(report: v.FrameworkReport, far: Progress, known: Sequence[Replayed]) -> bytes:

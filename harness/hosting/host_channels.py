@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import select
 import signal
 import socket
@@ -11,10 +12,15 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from contextlib import suppress
 from typing import Protocol
 
+import psutil
+
+from ucm_cts.adapters.sdk.python.template import NO_CONTROL
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
+from ucm_cts.harness.hosting.process_tree import MARK, below, end_marked, is_child_of, is_stopped, new_mark
 from ucm_cts.harness.results.foreign import clean, one_line
 from ucm_cts.harness.results.values import Incident, IncidentKind
 
@@ -22,6 +28,9 @@ START_SECONDS = 60.0
 """How long an adapter may take to be loaded."""
 
 _RETRY_SECONDS = 1.0
+_GLANCE_SECONDS = 0.2
+_LONGEST_LINE = 1 << 16
+_CONTROL_CHANNEL = "the control channel of its host; an adapter leaves descriptors alone that it has not opened"
 _FAREWELL_SECONDS = 0.5
 _LOG_TAIL = 1 << 16
 _LAST_LINES = 20
@@ -49,6 +58,9 @@ class Channel(Protocol):
     notices: int | None
     """Readable when ``status`` may have changed."""
 
+    def processes(self) -> frozenset[psutil.Process]:
+        """The host, if it is a process of ours, and all processes that it has started."""
+
     def signal(self, number: int) -> None:
         """Send a signal to the host, if it is a process of ours that still runs."""
 
@@ -60,10 +72,20 @@ class Channel(Protocol):
 
 
 class Opener(Protocol):
-    """Makes fresh hosts behind one endpoint."""
+    """Makes fresh hosts behind one endpoint.
 
-    def open(self) -> Channel:
-        """A fresh host. Raises ``HostUnavailable``, and ``WrongUse`` if the endpoint leads to no adapter."""
+    ``file``: the file of the adapter, as soon as a host was opened; empty if it is not known.
+    ``left_behind``: the command lines of processes that hosts left behind, which were ended, and how many of each.
+    """
+
+    file: str
+    left_behind: Counter[str]
+
+    def open(self, seconds: float) -> Channel:
+        """A fresh host, within ``seconds`` if the adapter is loaded.
+
+        Raises ``HostUnavailable``, and ``WrongUse`` if the endpoint leads to no adapter.
+        """
 
     def close(self) -> None:
         """End all hosts and the process that forks them."""
@@ -77,25 +99,39 @@ def opener(endpoint: Endpoint) -> Opener:
     return TemplateProcess([sys.executable, "-X", "faulthandler", "-m", module, endpoint.target], endpoint.text)
 
 
+class ControlBroken(OSError):
+    """What came over the control channel is not from the template."""
+
+
+_NOTICE = re.compile(
+    r"forked (?P<forked>[1-9]\d{0,9})|ended (?P<ended>[1-9]\d{0,9}) (?P<status>-?\d{1,5}) (?P<strays>\[.*\])"
+)
+
+
 class TemplateProcess:
     """Client of ``adapters.python.template``; started on demand, and once more if it has ended."""
 
     def __init__(self, command: list[str], name: str) -> None:
+        self.file = ""
+        self.left_behind: Counter[str] = Counter()
         self._command = command
         self._name = name
         self._process: subprocess.Popen[bytes] | None = None
+        self._mark = new_mark()
+        self._helpers: frozenset[psutil.Process] = frozenset()
         self._control: socket.socket | None = None
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 - closed in close
         self._unread = b""
         self._forked: list[int] = []
         self._ended: dict[int, int] = {}
+        self._hosts: set[int] = set()
 
-    def open(self) -> Channel:
+    def open(self, seconds: float) -> Channel:
         for last in (False, True):
             if self._control is None:
-                self._start()
+                self._start(seconds)
             try:
-                return self._fork()
+                return self._fork(seconds)
             except (OSError, EOFError) as error:
                 self._stop()
                 if last:
@@ -134,7 +170,12 @@ class TemplateProcess:
         """Readable when a host has ended."""
         return self._control.fileno() if self._control else -1
 
-    def _start(self) -> None:
+    def processes(self) -> frozenset[psutil.Process]:
+        """The processes of all hosts, without those that were started when the adapter was loaded."""
+        return below(self._process.pid) - self._helpers if self._process is not None else frozenset()
+
+    def _start(self, seconds: float) -> None:
+        """Load the adapter. A process that is stopped gets ``seconds``."""
         self._log.seek(0)
         self._log.truncate()
         ours, theirs = socket.socketpair()
@@ -144,38 +185,67 @@ class TemplateProcess:
                 stdin=subprocess.DEVNULL,
                 stdout=self._log,
                 stderr=self._log,
+                env={**os.environ, MARK: self._mark},
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,  # an interrupt at the terminal is for the harness
             )
         self._control, self._unread, self._forked, self._ended = ours, b"", [], {}
         try:
-            first = self._read_line(time.monotonic() + START_SECONDS)
+            first = self._read_first(seconds)
+        except ControlBroken:
+            first = "?"
         except (OSError, EOFError):
             first = ""
         except BaseException:
             self._stop()
             raise
-        if first == "ready":
+        word, _, said = (first or "").partition(" ")
+        text = _text(said)
+        if word == "ready" and text is not None:
+            self.file = text
+            self._helpers = below(self._process.pid)
             return
+        stopped = is_stopped(self._process.pid)
+        lives = first == "" and not self._ends_soon()
         status = self._stop()
         if first is None:
-            raise self._unavailable("unreachable", f"'{self._name}' was not loaded within {START_SECONDS:g} s")
-        if first.startswith("failed "):
-            raise WrongUse(f"'{self._name}': {json.loads(first.removeprefix('failed '))}")
-        how = signal.Signals(-status).name if status < 0 else f"exit status {status}"
+            how = f": it is stopped (SIGSTOP), for {seconds:g} s" if stopped else f" within {START_SECONDS:g} s"
+            raise self._unavailable("unreachable", f"'{self._name}' was not loaded{how}")
+        if word == "failed" and text is not None:
+            raise WrongUse(f"'{self._name}': {text}")
+        if first or lives or status == NO_CONTROL:
+            what = "writes to" if first else "has closed"
+            raise self._unavailable("unreachable", f"'{self._name}' {what} {_CONTROL_CHANNEL}")
+        how = _ending(status)
         raise self._unavailable("unreachable", f"'{self._name}' ended while it was loaded: {how}")
 
-    def _fork(self) -> Channel:
+    def _read_first(self, seconds: float) -> str | None:
+        """The first line of the template; None if it does not come in time."""
+        assert self._process
+        begun = time.monotonic()
+        while time.monotonic() < begun + START_SECONDS:
+            line = self._read_line(min(time.monotonic() + _GLANCE_SECONDS, begun + START_SECONDS))
+            if line is not None:
+                return line
+            if time.monotonic() > begun + seconds and is_stopped(self._process.pid):
+                return None
+        return None
+
+    def _fork(self, seconds: float) -> Channel:
         assert self._control
+        assert self._process
         host_in, target = os.pipe()
         source, host_out = os.pipe()
         error, host_error = os.pipe()
         try:
             socket.send_fds(self._control, [b"fork\n"], [host_in, host_out, host_error])
-            deadline = time.monotonic() + START_SECONDS
+            deadline = time.monotonic() + seconds
             while not self._forked:
                 if not self._read_notices(deadline):
-                    raise TimeoutError("the template does not answer")
+                    stopped = "is stopped (SIGSTOP)" if is_stopped(self._process.pid) else "does not answer"
+                    raise TimeoutError(f"the process that forks them {stopped}, for {seconds:g} s")
+            if not is_child_of(self._forked[-1], self._process.pid):
+                raise ControlBroken(f"the adapter writes to {_CONTROL_CHANNEL}")
         except BaseException:
             for descriptor in (target, source, error):
                 os.close(descriptor)
@@ -189,24 +259,31 @@ class TemplateProcess:
         line = self._read_line(deadline)
         if line is None:
             return False
-        word, *numbers = line.split()
-        if word == "forked":
-            self._forked.append(int(numbers[0]))
-        elif word == "ended":
-            self._ended[int(numbers[0])] = int(numbers[1])
+        notice = _NOTICE.fullmatch(line)
+        strays = _texts(notice["strays"]) if notice and notice["strays"] else ()
+        if notice is None or strays is None:
+            raise ControlBroken(f"the adapter writes to {_CONTROL_CHANNEL}")
+        if notice["forked"]:
+            self._forked.append(int(notice["forked"]))
+            self._hosts.add(self._forked[-1])
+        else:
+            self._ended[int(notice["ended"])] = int(notice["status"])
+            self.left_behind.update(map(one_line, strays))
         return True
 
     def _read_line(self, deadline: float) -> str | None:
         assert self._control
         while b"\n" not in self._unread:
+            if len(self._unread) > _LONGEST_LINE:
+                raise ControlBroken(f"the adapter writes to {_CONTROL_CHANNEL}")
             if not select.select([self._control], [], [], max(deadline - time.monotonic(), 0))[0]:
                 return None
             data = self._control.recv(4096)
             if not data:
-                raise EOFError("the template has ended")
+                raise EOFError("the process that forks them has ended")
             self._unread += data
         line, _, self._unread = self._unread.partition(b"\n")
-        return line.decode()
+        return line.decode(errors="replace")
 
     def _stop(self) -> int:
         if self._control:
@@ -215,16 +292,55 @@ class TemplateProcess:
         process, self._process = self._process, None
         if process is None:
             return 0
-        try:
-            return process.wait(_FAREWELL_SECONDS)
-        except subprocess.TimeoutExpired:
-            with suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-            return process.wait()
+        if not _has_ended(process.pid, _FAREWELL_SECONDS):
+            for one in below(process.pid):  # it cannot end them any more
+                with suppress(psutil.Error):
+                    one.kill()
+        with suppress(ProcessLookupError):  # what the adapter started when it was loaded belongs to this group, too
+            os.killpg(process.pid, signal.SIGKILL)
+        status = process.wait()
+        strays = end_marked(process.pid, self._mark)
+        self.left_behind.update(one_line(name) for number, name in strays.items() if number not in self._hosts)
+        return status
+
+    def _ends_soon(self) -> bool:
+        return self._process is None or _has_ended(self._process.pid, _FAREWELL_SECONDS)
 
     def _unavailable(self, kind: IncidentKind, detail: str) -> HostUnavailable:
         self._log.seek(0)
         return HostUnavailable(Incident(kind, detail, self._log.read()[-_LOG_TAIL:].decode(errors="replace")))
+
+
+def _has_ended(pid: int, seconds: float) -> bool:
+    """Whether process ``pid``, a child of ours, ends within ``seconds``."""
+    try:
+        handle = os.pidfd_open(pid)
+    except OSError:
+        return True
+    try:
+        return bool(select.select([handle], [], [], seconds)[0])
+    finally:
+        os.close(handle)
+
+
+def _ending(status: int) -> str:
+    return signal.Signals(-status).name if status < 0 else f"exit status {status}"
+
+
+def _text(said: str) -> str | None:
+    """The text that ``said`` holds as JSON; None if it holds none."""
+    with suppress(ValueError, RecursionError):
+        text = json.loads(said)
+        return text if isinstance(text, str) else None
+    return None
+
+
+def _texts(said: str) -> tuple[str, ...] | None:
+    """The texts that ``said`` holds as a list of JSON; None if it holds anything else."""
+    with suppress(ValueError, RecursionError):
+        texts = json.loads(said)
+        return tuple(texts) if all(isinstance(text, str) for text in texts) else None
+    return None
 
 
 class HostProcess:
@@ -239,6 +355,9 @@ class HostProcess:
         self.target = target
         self.error: int | None = error
         self.notices: int | None = template.notices
+
+    def processes(self) -> frozenset[psutil.Process]:
+        return self._template.processes()
 
     def signal(self, number: int) -> None:
         self._template.kill(self._pid, number)
@@ -266,9 +385,11 @@ class Connector:
     """Connects to a host that runs already; retries for a moment, because a replaced host may still be ending."""
 
     def __init__(self, endpoint: Endpoint) -> None:
+        self.file = ""
+        self.left_behind: Counter[str] = Counter()
         self._endpoint = endpoint
 
-    def open(self) -> Channel:
+    def open(self, seconds: float) -> Channel:
         deadline = time.monotonic() + _RETRY_SECONDS
         while True:
             try:
@@ -310,6 +431,9 @@ class Connection:
         self.source = connection.fileno()
         self.target = os.dup(self.source)
         self._open = True
+
+    def processes(self) -> frozenset[psutil.Process]:
+        return frozenset()
 
     def signal(self, number: int) -> None:
         """A remote host gets no signals."""

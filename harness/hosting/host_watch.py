@@ -15,11 +15,15 @@ import msgspec
 
 from ucm_cts.adapters.sdk.python.loading import Answer
 from ucm_cts.harness.hosting.host_channels import Channel
+from ucm_cts.harness.hosting.process_tree import resident
 from ucm_cts.harness.results.values import Incident, IncidentKind
 
 _CHUNK = 1 << 16
 _STDERR_TAIL = 1 << 16
 _CHECK_SECONDS = 0.05
+_CHECK_ALL_SECONDS = 0.25
+"""Between two samples of the memory of all processes of a host, each of which reads the system's table of processes."""
+
 _POLL_MILLISECONDS = 50
 _STACK_SECONDS = 0.3
 _QUIET_SECONDS = 0.05
@@ -33,7 +37,7 @@ class Limits:
     """What a host may use.
 
     ``seconds``: for an answer, without the waits of the scenario.
-    ``memory``: MiB of resident memory.
+    ``memory``: MiB of resident memory, of the host and all processes that it has started.
     ``line``: bytes of one message.
     ``welcome_seconds``: from the start until it has sent ``welcome``.
     ``incident_seconds``: of one run for all incidents of its hosts.
@@ -86,6 +90,9 @@ class Host(Protocol):
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         """End the host because of its message: raises ``HostIncident``."""
 
+    def printed(self) -> str:
+        """What the host has printed since the last call, at most the last part of it."""
+
     def keep_to_one_core(self) -> None:
         """Restrict the threads that a local host will start to one core."""
 
@@ -108,6 +115,8 @@ class WatchedHost:
         self._lines: deque[bytes] = deque()
         self._stderr = bytearray()
         self._checked = 0.0
+        self._checked_all = time.monotonic()
+        self._printed = bytearray()
         self._writing = False
         self._ended = False
         self._poll = select.poll()
@@ -165,6 +174,12 @@ class WatchedHost:
         text = self._stderr.decode(errors="replace")
         self._close(orderly=False)
         raise HostIncident(Incident(kind, detail, text))
+
+    def printed(self) -> str:
+        self._drain()
+        text = self._printed.decode(errors="replace")
+        self._printed.clear()
+        return text
 
     def keep_to_one_core(self) -> None:
         if self._channel.pid is not None:
@@ -228,8 +243,9 @@ class WatchedHost:
                     os.close(self._channel.error)
                     self._channel.error = None
                 new += len(data)
-                self._stderr += data
-                del self._stderr[:-_STDERR_TAIL]
+                for kept in (self._stderr, self._printed):
+                    kept += data
+                    del kept[:-_STDERR_TAIL]
         return new
 
     def _check_memory(self) -> None:
@@ -237,11 +253,17 @@ class WatchedHost:
             return
         try:
             with open(f"/proc/{self._channel.pid}/statm") as statm:
-                resident = int(statm.read().split()[1]) * _PAGE // _MIB
+                held = int(statm.read().split()[1]) * _PAGE // _MIB
         except (OSError, IndexError):
             return
-        if resident > self._limits.memory:
-            self.fail("memory", f"{resident} MiB resident, {self._limits.memory} MiB allowed")
+        if held <= self._limits.memory and self._checked >= self._checked_all + _CHECK_ALL_SECONDS:
+            self._checked_all = self._checked
+            processes = self._channel.processes()
+            held = resident(processes, self._limits.memory)
+            if held > self._limits.memory:
+                self.fail("memory", f"{held} MiB in {len(processes)} processes, {self._limits.memory} MiB allowed")
+        if held > self._limits.memory:
+            self.fail("memory", f"{held} MiB resident, {self._limits.memory} MiB allowed")
 
     def usage(self) -> Usage | None:
         try:
@@ -295,6 +317,9 @@ class InProcessHost:
 
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         raise HostIncident(Incident(kind, detail))
+
+    def printed(self) -> str:
+        return ""  # it went to the terminal
 
     def keep_to_one_core(self) -> None:
         """Nothing to do: the cores are those of the harness."""

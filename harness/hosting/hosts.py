@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Generator, Iterable
 from contextlib import suppress
 from typing import Self
@@ -26,7 +26,7 @@ from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.contract.traits import duration
-from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
+from ucm_cts.adapters.sdk.python.loading import CannotLoad, file_of, load
 from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, opener
 from ucm_cts.harness.hosting.host_watch import (
     Deadline,
@@ -38,11 +38,15 @@ from ucm_cts.harness.hosting.host_watch import (
     WatchedHost,
 )
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
+from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Incident
 
 __all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
 
 _SHOWN = 80
+
+_FORK_SECONDS = 2.0
+"""How long the fork of a host may take, at least."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -52,6 +56,7 @@ class Answer(msgspec.Struct, frozen=True):
     ``reply``: the trace, a refusal, or an incident.
     ``happened``: events that a streamed run sent ahead: after an incident, the known part of the trace.
     ``host``: the number of the host.
+    ``printed``: what the host printed meanwhile.
     ``sent``: when the host got the message, in nanoseconds of ``time.monotonic_ns``.
     """
 
@@ -60,6 +65,7 @@ class Answer(msgspec.Struct, frozen=True):
     happened: tuple[Event, ...] = ()
     host: int = 0
     sent: int = 0
+    printed: str = ""
 
 
 class Hosts:
@@ -76,6 +82,10 @@ class Hosts:
         self._host: Host | None = None
         self._welcome: m.Welcome | None = None
         self._opened = 0
+        self.file = ""
+        """The file of the adapter; empty if it is not known."""
+        self.left_behind: Counter[str] = Counter()
+        """The command lines of processes that hosts left behind, which were ended, and how many of each."""
 
     def __enter__(self) -> Self:
         return self
@@ -164,30 +174,38 @@ class Hosts:
         self.discard()
         if self._opener:
             self._opener.close()
+            self.left_behind = self._opener.left_behind
             self._opener = None
 
     def _open(self) -> None:
         self.discard()
         host = self._new_host()
         try:
-            self._welcome = self._greet(host)
+            welcome = self._greet(host)
         except HostIncident as error:
             raise HostUnavailable(_explained(error.incident, self._endpoint)) from error
         except BaseException:
             host.close()
             raise
-        self._host = host
+        if self._welcome is not None and welcome != self._welcome:
+            host.close()
+            raise HostUnavailable(Incident("unreachable", _changed(self._welcome, welcome)))
+        self._host, self._welcome = host, welcome
         self._opened += 1
 
     def _new_host(self) -> Host:
         if self._endpoint.in_process:
             try:
-                return InProcessHost(load(self._endpoint.target))
+                answer = load(self._endpoint.target)
+                self.file = file_of(self._endpoint.target)
+                return InProcessHost(answer)
             except CannotLoad as error:
                 raise WrongUse(f"'{self._endpoint.text}': {error}") from error
         if self._opener is None:
             self._opener = opener(self._endpoint)
-        return WatchedHost(self._opener.open(), self.limits)
+        channel = self._opener.open(max(self.limits.seconds, _FORK_SECONDS))
+        self.file, self.left_behind = self._opener.file, self._opener.left_behind
+        return WatchedHost(channel, self.limits)
 
     def _greet(self, host: Host) -> m.Welcome:
         host.submit(m.encode(m.Hello(m.PROTOCOL)))
@@ -211,9 +229,10 @@ class Hosts:
         except BaseException:
             self.discard()
             raise
+        printed = self._host.printed()
         if isinstance(reply, m.Traced) and reply.stuck:
             self.discard()
-        return Answer(run.id, reply, tuple(happened))
+        return Answer(run.id, reply, tuple(happened), printed=printed)
 
     def _receive_reply(self, host: Host, run: m.Run, happened: list[Event]) -> m.Traced | m.Refused:
         deadline = Deadline.after(self.limits.seconds + waits(run.scenario))
@@ -261,6 +280,14 @@ def _decode(host: Host, line: bytes) -> m.FromHost:
 
 def _tag(message: m.FromHost) -> str:
     return str(type(message).__struct_config__.tag)
+
+
+def _changed(before: m.Welcome, after: m.Welcome) -> str:
+    """How a host differs from the first one of the run."""
+    named, now = (one_line(f"{w.product} {w.version}", 80) for w in (before, after))
+    if named == now:
+        return f"the host says other things of '{now}' than the first host of this run; it must not change during a run"
+    return f"the host is of '{now}', and the first host of this run was of '{named}'; a product must not change during a run"
 
 
 def _explained(incident: Incident, endpoint: Endpoint) -> Incident:

@@ -10,7 +10,7 @@ import importlib.machinery
 import importlib.util
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -76,6 +76,29 @@ def locate(text: str, in_process: bool = False) -> Endpoint:
             f"'{text}' cannot run in the harness process: that takes a Python adapter or an extension module"
         )
     return replace(endpoint, text=text, in_process=in_process)
+
+
+def namesakes(endpoint: Endpoint, file: str) -> Iterator[str]:
+    """Other files on the search path that would be loaded for ``endpoint`` if ``file`` were not there.
+
+    The current directory comes before ``PYTHONPATH``, so that a file there may be loaded by mistake.
+    """
+    if endpoint.kind != "python" or os.sep in endpoint.target or not file:
+        return
+    top = endpoint.target.partition(":")[0].partition(".")[0]
+    if top == __name__.partition(".")[0]:
+        return
+    seen = {os.path.realpath(file)}
+    for place in dict.fromkeys([os.getcwd(), *sys.path]):
+        spec = importlib.machinery.PathFinder.find_spec(top, [place or os.getcwd()])
+        found = os.path.realpath(spec.origin) if spec is not None and spec.origin else ""
+        package = os.path.dirname(found)
+        is_ours = found in seen or (
+            os.path.basename(found).startswith("__init__.") and file.startswith(package + os.sep)
+        )
+        if found and os.path.isfile(found) and not is_ours:
+            seen.add(found)
+            yield found
 
 
 def _published(group: str) -> dict[str, EntryPoint]:

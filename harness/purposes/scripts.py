@@ -81,6 +81,7 @@ class TestPurpose:
     ``scenarios``: with their names.
     ``draw``: the same scenarios with values drawn from a seed, within the vendor's readings.
     ``under``: only for vendors with these readings: ``option=value``, or several values with ``|`` between them.
+    ``may_wait``: a call in them may have to wait for a start that never comes; if it does, that is no incident.
     """
 
     __test__ = False
@@ -92,6 +93,7 @@ class TestPurpose:
     scenarios: tuple[tuple[str, Scenario], ...]
     draw: Callable[[int, Mapping[str, str]], tuple[tuple[str, Scenario], ...]] | None = None
     under: tuple[str, ...] = ()
+    may_wait: bool = False
 
 
 def load_scripts(directory: Path = SCENARIOS) -> list[Script]:

@@ -11,16 +11,24 @@ from ucm_cts.harness.purposes.data.scenarios import data_purposes
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.derived.messages import message_purposes
-from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
+from ucm_cts.harness.purposes.derived.schedules import crowd_purposes, overlap_purposes
 from ucm_cts.harness.purposes.derived.services import service_purposes
 from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
 from ucm_cts.harness.purposes.probes import load_probe_types
+from ucm_cts.harness.purposes.provocations.boundaries import boundary_purposes
+from ucm_cts.harness.purposes.provocations.contention import contention_purposes, service_contention_purposes
+from ucm_cts.harness.purposes.provocations.core_boundaries import core_boundary_purposes
+from ucm_cts.harness.purposes.provocations.later_use import later_use_purposes
+from ucm_cts.harness.purposes.provocations.purposes import duration_purposes, provocation_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
 from ucm_cts.harness.purposes.systematic.purposes import systematic_purposes
 from ucm_cts.harness.purposes.tables import purposes_of
 
 _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     overlap_purposes,
+    crowd_purposes,
+    service_contention_purposes,
+    core_boundary_purposes,
     functools.partial(purposes_of, "execution_policies"),
     message_purposes,
     service_purposes,
@@ -70,7 +78,18 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         if script.exercises[0] in clauses
     ]
     combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
-    return (*scripted, *generated_purposes(load_life_cycle()), *purposes_of("start"), *unforeseen_purposes(), *combined)
+    return (
+        *scripted,
+        *generated_purposes(load_life_cycle()),
+        *purposes_of("start"),
+        *unforeseen_purposes(),
+        *provocation_purposes(),
+        *duration_purposes(),
+        *boundary_purposes(),
+        *later_use_purposes(),
+        *contention_purposes(),
+        *combined,
+    )
 
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
+from ucm_cts.harness.purposes.provocations.coverage import ProvocationRow
+from ucm_cts.harness.purposes.provocations.coverage import rows as provocation_rows
 from ucm_cts.harness.report.diagrams import life_cycle_diagram, sequence_svg
 from ucm_cts.harness.report.diagrams.excerpt import compare, excerpt
 from ucm_cts.harness.report.diagrams.sequence import last_call
@@ -62,6 +64,7 @@ class FrameworkBody:
     rows: tuple[RowSeen, ...]
     choices: tuple[Choice, ...]
     diagram: Markup
+    provoked: tuple[ProvocationRow, ...] = ()
     states: tuple[State, ...] = STATES
 
     @property
@@ -86,6 +89,7 @@ def framework_body(report: FrameworkReport, table: LifeCycleTable) -> FrameworkB
         rows,
         choices(rows),
         life_cycle_diagram.to_svg(rows),
+        provocation_rows(report.provoked),
     )
 
 

@@ -19,7 +19,9 @@ from ucm_cts.harness.report.order import (
     counted,
     failed_first,
     not_followed,
+    of_same_causes,
     shown,
+    sides,
     to_fix,
 )
 from ucm_cts.harness.report.page import part, rendered
@@ -80,6 +82,8 @@ def to_html(
         counts=count(report.requirements),
         verdicts=VERDICTS,
         to_fix=fixes,
+        same_cause=len(of_same_causes(report)),
+        sides=sides(report),
         not_followed=not_followed(report.requirements),
         items=_items(report, fixes, catalogue, interpretations),
         untestable=sorted(

@@ -136,7 +136,8 @@ class ReportEntry(Entry, frozen=True):
     """The whole of ``report.json``.
 
     ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
-    empty after a run of everything.
+    empty after a run of everything. ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are
+    what its vendor should know of it.
     """
 
     product: str
@@ -160,6 +161,9 @@ class ReportEntry(Entry, frozen=True):
     runs: int
     incomplete: str = ""
     selection: str = ""
+    adapter_file: str = ""
+    warnings: tuple[str, ...] = ()
+    provoked: dict[str, int] = {}
 
 
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -194,7 +198,7 @@ def _body(report: v.Report) -> dict[str, Any]:
         }
     assert isinstance(report, v.ToolChainReport)
     counts = {"scenarios": report.models, "events": report.facts, "runs": 1}
-    return {"incidents": (), "transitions": (), "readings": {}, **counts}
+    return {"incidents": (), "transitions": (), "readings": {}, "provoked": {}, **counts}
 
 
 def schema() -> dict[str, Any]:

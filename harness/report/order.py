@@ -10,6 +10,8 @@ from typing import Literal
 from ucm_cts.harness.catalogue.requirements import decides
 from ucm_cts.harness.results.tally import Counted
 from ucm_cts.harness.results.values import (
+    REQUIREMENTS_WITH,
+    SIDES,
     FrameworkReport,
     IncidentReport,
     Overall,
@@ -52,6 +54,17 @@ def counted(report: Report) -> tuple[tuple[int, str], tuple[int, str]]:
     raise TypeError(type(report))
 
 
+def sides(report: Report) -> list[str]:
+    """What a checker does with legal and with broken models, a sentence each; nothing for other products."""
+    measures = report.effort.measures
+    return [
+        f"{side}: {measures.get(done, 0):,} of {measures[asked]:,} models, "
+        f"{measures.get(REQUIREMENTS_WITH + done, 0):,} of {measures.get(REQUIREMENTS_WITH + asked, 0):,} requirements"
+        for side, (asked, done) in SIDES.items()
+        if asked in measures
+    ]
+
+
 def clause_key(clause: str) -> tuple[int, ...]:
     """Sorts clauses as a table of contents does: 11.2.3 before 11.10."""
     return tuple(int(number[:9]) for number in _NUMBER.findall(clause))
@@ -76,13 +89,17 @@ class Fix:
 
 
 def to_fix(report: Report) -> list[Fix]:
-    """What to mend, in the order to work on it: incidents, then failed requirements; first what explains most."""
+    """What to mend, in the order to work on it: incidents, then failed requirements; first what explains most.
+
+    Failed requirements whose causes others show (``of_same_causes``) are left out.
+    """
     incidents = [
         Fix(None, item, number, frozenset(item.requirements), item.occurrences)
         for number, item in enumerate(incidents_of(report))
         if item.incident.kind != "untried"
     ]
-    failed = [result for result in report.requirements if shown(result) == "fail"]
+    elsewhere = {result.id for result in of_same_causes(report)}
+    failed = [result for result in report.requirements if shown(result) == "fail" and result.id not in elsewhere]
     independent = {result.id for result in failed if not result.caused_by}
     fixes = [
         Fix(
@@ -104,10 +121,22 @@ def to_fix(report: Report) -> list[Fix]:
     return [*sorted(incidents, key=key), *sorted(fixes, key=key)]
 
 
+def of_same_causes(report: Report) -> list[RequirementResult]:
+    """The failed requirements that one cause breaks together with others, which have its evidence."""
+    failed = [result for result in report.requirements if shown(result) == "fail"]
+    causes = {f.finding.cause for result in failed for f in result.findings if f.evidence is not None}
+    return [
+        result
+        for result in failed
+        if result.findings and all(f.evidence is None and f.finding.cause in causes for f in result.findings)
+    ]
+
+
 def failed_first(results: Sequence[RequirementResult], fixes: Iterable[Fix]) -> list[RequirementResult]:
     """All ``results``: those of ``fixes`` in their order, each before its followers, then the others."""
-    failed = [result for fix in fixes if fix.result is not None for result in (fix.result, *fix.followers)]
-    return [*failed, *(result for result in results if shown(result) != "fail")]
+    listed = [result for fix in fixes if fix.result is not None for result in (fix.result, *fix.followers)]
+    ids = {result.id for result in listed}
+    return [*listed, *(result for result in results if result.id not in ids)]
 
 
 def not_followed(results: Iterable[RequirementResult]) -> list[RequirementResult]:

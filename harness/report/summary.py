@@ -8,7 +8,19 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
-from ucm_cts.harness.report.order import SEALS, SYMBOLS, Fix, Shown, count, counted, not_followed, shown, to_fix
+from ucm_cts.harness.report.order import (
+    SEALS,
+    SYMBOLS,
+    Fix,
+    Shown,
+    count,
+    counted,
+    not_followed,
+    of_same_causes,
+    shown,
+    sides,
+    to_fix,
+)
 from ucm_cts.harness.report.wanting import wanting
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
@@ -48,6 +60,8 @@ def summary(report: Report, out: Path | None = None, whole: bool = False, everyt
             f"  {name}, profile {one_line(report.profile, 40)}{only}",
         ),
         _counts(report),
+        *(Text(f"  {side}", "dim") for side in sides(report)),
+        *(Text(f"  warning: {one_line(warning, 600)}", "yellow") for warning in getattr(report, "warnings", ())),
     ]
     if report.incomplete:
         lines.append(Text(f"  incomplete: {one_line(report.incomplete)}", "bold yellow"))
@@ -67,6 +81,8 @@ def summary(report: Report, out: Path | None = None, whole: bool = False, everyt
         lines += [Text(), *_failure(fix, everything)]
     if len(failed) > most:
         lines += [Text(), Text(f"and {len(failed) - most} more failed requirements (--all lists them)", "dim")]
+    if same_cause := len(of_same_causes(report)):
+        lines += [Text(), Text(f"and {same_cause} more requirements that fail for causes shown above", "dim")]
     for result in ignored[:most]:
         lines += [Text(), *_described(result, everything)]
     if len(ignored) > most:

@@ -45,6 +45,7 @@ class Tally:
         self.scenarios = 0
         self.events = 0
         self.measures: Counter[str] = Counter()
+        self.provoked: Counter[str] = Counter()
         self.readings: dict[str, set[str]] = {}
         self._settled: dict[str, tuple[v.Verdict, str]] = {}
         self._reasons: dict[str, str] = {}
@@ -166,6 +167,7 @@ class Tally:
             if incident.incident.kind != "untried":  # their test purposes are run again
                 self._incidents.add_report(incident)
         self._observe(report.readings)
+        self.provoked.update(report.provoked)
         self.measures.update(report.effort.measures)
         self.scenarios += report.scenarios
         self.events += report.events

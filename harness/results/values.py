@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -218,6 +219,23 @@ class FrameworkReport(Report, frozen=True, kw_only=True):
     readings: dict[str, tuple[str, ...]]
     """The readings that were observed, by option."""
     runs: int = 1
+    adapter_file: str = ""
+    """The file that the adapter was loaded from; empty if it is not known."""
+    warnings: tuple[str, ...] = ()
+    """What the vendor should know of the adapter, a sentence each."""
+    provoked: dict[str, int] = {}
+    """How often bodies acted in a callback: by callback, operation that led there, and action."""
+
+
+SIDES: Mapping[str, tuple[str, str]] = {
+    "accepts what is legal": ("legal models", "legal models accepted"),
+    "refuses what is broken": ("broken models", "broken models refused"),
+}
+"""The two sides of a checker, and the measures of each: the models that decide something, and those answered as they must be. The
+same measures with ``REQUIREMENTS_WITH`` before them count requirements of which all such models are answered so.
+"""
+
+REQUIREMENTS_WITH = "requirements with "
 
 
 class ToolChainReport(Report, frozen=True, kw_only=True):

@@ -12,6 +12,7 @@ import jinja2
 import msgspec
 
 import ucm_cts
+from ucm_cts.harness.catalogue.documents import without_waiting
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import Interpretation, load_capabilities, load_interpretations
 from ucm_cts.harness.hosting.locate import WrongUse
@@ -83,7 +84,7 @@ def _write(
     else:
         text = to_short_toml(statement, subject, file_name, missing, asked)
     try:
-        with out.open("w" if wanted.force else "x", encoding="utf-8") as file:
+        with open(out, "w" if wanted.force else "x", encoding="utf-8", opener=without_waiting) as file:
             file.write(text)
     except FileExistsError:
         raise WrongUse(

@@ -137,6 +137,10 @@ class ToolChainCampaign:
         self._seconds.update({name: (time.monotonic() - began) / len(some) for name, _ in some})
         return done
 
+    def warnings(self) -> tuple[str, ...]:
+        """What the vendor should know of how the calls went."""
+        return self._processor.warnings()
+
     def judge(self) -> None:
         """Judge the responses so far, instead of what was judged before."""
         self._tally = Tally()
@@ -165,7 +169,20 @@ class ToolChainCampaign:
         for name, requirements in asked_by_model.items():
             for requirement in requirements:
                 self._tally.seconds[requirement] += self._seconds.get(name, 0.0) / len(requirements)
+        self._explain_lost()
         self.is_judged = True
+
+    def _explain_lost(self) -> None:
+        """Say of requirements that nothing exercised that models got no answer, if so."""
+        lost = Counter(
+            f"{response.processed.incident.kind}: {response.processed.incident.detail}"
+            for response in self._responses.values()
+            if response.processed.incident is not None
+        )
+        for reason, number in lost.most_common(1):
+            for requirement in self._requirements:
+                answers = f"{number} of {len(self._responses)} models got no answer ({reason})"
+                self._tally.explain(requirement.id, f"its condition never arose in this run; {answers}")
 
     def confirm(self) -> Iterator[str]:
         """Process again one model of each broken requirement: a failure that does not show again is unstable, and no verdict.
@@ -209,7 +226,7 @@ class ToolChainCampaign:
             started=self._started,
             seconds=round(time.monotonic() - self._began, 3),
             models=len(self._responses),
-            facts=len(self._facts),
+            facts=sum(1 for fact in self._facts if fact.requirement),
             statement=self._statement,
             effort=Effort(dict(self._measures.most_common())),
         )

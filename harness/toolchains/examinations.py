@@ -12,6 +12,7 @@ from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.commands.description import Command, Task
+from ucm_cts.harness.toolchains.corpus.decoration import PREFIX
 from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.cpp import applicability
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
@@ -82,6 +83,8 @@ WITH_NATIVES = frozenset({"idl_natives"})
 def _asked(task: Task, statement: Statement, models: Collection[str] | None) -> Collection[str]:
     """The models that code is generated from, by name."""
     names = frozenset(mapping_models() if models is None else models)
+    if task != "idl":
+        names = frozenset(name for name in names if not name.startswith(PREFIX))
     return names if task == "idl" and statement.meets("native-types=supported") else names - WITH_NATIVES
 
 

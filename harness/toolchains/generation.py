@@ -13,12 +13,24 @@ from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, FactEvidence
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.commands.processing import Response
+from ucm_cts.harness.toolchains.corpus.decoration import PREFIX, REQUIREMENT, RULE, decorated
+from ucm_cts.harness.toolchains.cpp.probes.check import HEADERS
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.renaming import Renaming
 from ucm_cts.harness.toolchains.unspecified_spellings import refused_for_spelling
 from ucm_cts.reference_models.findings import Finding
 
 FOLDERS = (SUITE / "models" / "mapping", SUITE / "models" / "legal")
+
+OPEN = "open_"
+"""How the names of models begin that may be refused, because their names have no equals in the target language: what is generated of
+them, if anything is, must be valid, whatever it is called."""
+
+VALID = frozenset(("R-12.1-03", *HEADERS.values()))
+"""The requirements that what is generated is IDL, or compiles."""
+
+DECORATED = ("interfaces", "ports")
+"""The models that are asked with annotations and comments, too."""
 
 AROUND = 3
 """Lines of a generated file shown before and after the one that is wrong."""
@@ -47,7 +59,8 @@ class Generation:
         self.not_applicable = not_applicable
         self._compare = compare
         self._generates = generates
-        chosen = {name: text for name, text in mapping_models().items() if only is None or name in only}
+        wanted = None if only is None else {*only, *(name.removeprefix(PREFIX) for name in only)}
+        chosen = {name: text for name, text in mapping_models().items() if wanted is None or name in wanted}
         models = {name: renaming.apply(text) for name, text in chosen.items()}
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         named = {name: text for name, text in models.items() if any(word in name.lower() for word in words)}
@@ -69,8 +82,25 @@ class Generation:
         for name in responses:
             if name in misspelt:
                 yield Fact(self._generates[0], (name,), undecided=misspelt[name])
+            elif name.startswith(PREFIX):
+                yield from self._of_decoration(name, responses[name], shown)
             else:
                 yield from shown[name]
+
+    def _of_decoration(self, name: str, response: Response, shown: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
+        """Whether the files show nothing wrong that those of the model without decoration do not show."""
+        plain = name.removeprefix(PREFIX)
+        if not self._is_wanted(REQUIREMENT) or any(fact.undecided for fact in shown[name]):
+            return
+        known = {fact.requirement for fact in shown.get(plain, ()) if fact.finding is not None}
+        new = [f.finding for f in shown[name] if f.finding is not None and f.requirement not in known]
+        if not new:
+            yield Fact(REQUIREMENT, (plain, name), measure="decorated models generated from")
+            return
+        expected = f"the same of {plain} with annotations and comments as without: {new[0].expected}"
+        finding = Finding(REQUIREMENT, RULE, "decoration", expected, new[0].observed)
+        evidence = FactEvidence(response.processed, self._texts.get(plain, ""))
+        yield Fact(REQUIREMENT, (plain, name), finding, evidence=evidence)
 
     def _is_wanted(self, requirement: str) -> bool:
         return not self._words or any(word in requirement.lower() for word in self._words)
@@ -80,6 +110,10 @@ class Generation:
         incident = response.processed.incident
         if incident is not None and incident.kind not in FRAMEWORK_INCIDENTS - {"exit"}:
             yield Fact(requirement, (name,), undecided=f"no answer: {incident.kind}: {incident.detail}")
+            return
+        if response.accepted is False and name.startswith(OPEN):
+            why = "it was refused, which its names allow (interpretation safe-names)"
+            yield Fact(requirement, (name,), undecided=why, leaves_others=True, measure="models that may be refused")
             return
         if not response.accepted or not response.files:
             observed = (
@@ -97,6 +131,8 @@ class Generation:
     def _compared(self, name: str, response: Response) -> Iterator[Fact]:
         model = read_model(self._texts[name].encode(), name).model
         comparison = self._compare(model, response.files)
+        if name.startswith(OPEN):
+            comparison = _validity_of(comparison)
         broken: dict[str, list[Difference]] = {}
         for difference in comparison.differences:
             broken.setdefault(difference.requirement, []).append(difference)
@@ -118,11 +154,19 @@ class Generation:
         return Finding(difference.requirement, difference.rule, cause, expected, difference.observed)
 
 
+def _validity_of(comparison: Comparison) -> Comparison:
+    """What ``comparison`` says of the files as such."""
+    differences = tuple(one for one in comparison.differences if one.requirement in VALID)
+    exercised = {requirement: times for requirement, times in comparison.exercised.items() if requirement in VALID}
+    return Comparison(exercised, differences, remarks=comparison.remarks)
+
+
 def mapping_models() -> dict[str, str]:
     """The models that code is generated from, by name, small ones first."""
     paths = [path for folder in FOLDERS for path in sorted(folder.glob("*.xml"))]
     texts = {path.stem: read_text(path) for path in paths}
     plain = {name: etree.tostring(etree.fromstring(text.encode()), encoding="unicode") for name, text in texts.items()}
+    plain |= {f"{PREFIX}{name}": decorated(plain[name]) for name in DECORATED}
     return dict(sorted(plain.items(), key=lambda item: len(item[1])))
 
 

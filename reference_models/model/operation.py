@@ -118,6 +118,7 @@ class OperationInProgress:
     ``forgiving``: it may end in UCM_ERROR for a reason that the rows do not show.
     ``lost``: the state that it leaves is not known.
     ``callbacks``: the entries meanwhile, with their ``hooks``, and the same ``by_body``.
+    ``inside``: those of ``callbacks`` that have not been left.
     ``created``: the bodies made meanwhile.
     ``subject``, ``connection``: the instance or connection that the step designates.
     ``end``: the event that ended it. Not there before.
@@ -136,6 +137,7 @@ class OperationInProgress:
     callbacks: list[Enter] = field(default_factory=list)
     hooks: set[Hook] = field(default_factory=set)
     by_body: dict[tuple[str, int | None], list[Enter]] = field(default_factory=dict)
+    inside: list[Enter] = field(default_factory=list)
     created: list[tuple[str, int]] = field(default_factory=list)
     subject: Member | None = None
     connection: Connection | None = None
@@ -151,9 +153,14 @@ class OperationInProgress:
         """The model cannot predict it if ``condition`` holds."""
         self.judged = self.judged and not condition
 
+    def leave(self, body: tuple[str, int], hook: Hook) -> None:
+        """A body was left that had been entered while the operation was in progress."""
+        self.inside = [callback for callback in self.inside if callback.body != body or callback.hook != hook]
+
     def add(self, callback: Enter) -> None:
         """A body was entered while the operation was in progress."""
         self.callbacks.append(callback)
+        self.inside.append(callback)
         self.hooks.add(callback.hook)
         body = callback.body
         self.by_body.setdefault(body, []).append(callback)

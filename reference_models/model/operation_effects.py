@@ -50,7 +50,8 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
     bodies = [body for body in seen if body not in runtime.bodies]
     own = [b for b in bodies if b[0] == step.component]
     if not isinstance(value, int) or isinstance(value, bool):
-        ongoing.container.failed_adds += 1
+        if declaration is not None and raises(declaration, "on_init", "set_container_interface"):
+            ongoing.container.failed_adds += 1
         runtime.discarded.update(body for body in bodies if body in ongoing.by_body)
         return
     member = Member(
@@ -60,6 +61,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
         container=ongoing.container,
         id=value,
         instance=own[0][1] if own else None,
+        late=ongoing.container.started is not False,
     )
     member.suspended = (
         not own
@@ -176,8 +178,19 @@ def _component_removed(runtime: Runtime, ongoing: OperationInProgress, step: s.R
         return
     if isinstance(end, Return):
         _removed(runtime, ongoing, [member])
+    elif member.leaving and end.error == "NOT_FOUND":
+        _gone_after_all(runtime, member)
     elif ongoing.received(member, "on_remove"):
         _perhaps_removed(runtime, [member])
+
+
+def _gone_after_all(runtime: Runtime, member: Member) -> None:
+    """A removal failed, and now the container says that the component is not there: that removal did remove it."""
+    for connection in member.connections:
+        connection.live = False
+    runtime.let_go(member)
+    container = member.container
+    container.of_doubt = any(other.doubtful for other in container.live_members())
 
 
 def _container_created(runtime: Runtime, ongoing: OperationInProgress, step: s.CreateContainer, end: Result) -> None:
@@ -197,9 +210,13 @@ def _container_removed(runtime: Runtime, ongoing: OperationInProgress, step: s.R
     if isinstance(end, Return):
         _removed(runtime, ongoing, container.live_members())
         container.removed = True
+        container.doubtful = False
     elif ongoing.callbacks:
         _perhaps_removed(runtime, container.live_members())
+        was_started = container.started
         container.suspend()
+        container.failed = ongoing.step_number, ongoing.call, end.n
+        container.started = was_started and None  # one that was not started does not run
         container.doubtful = True
 
 
@@ -267,6 +284,7 @@ def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end:
         unclear = container.started is not False or failing or half_way or unseen
         if unclear and (container.started is not True or own):
             container.suspend()
+            container.failed = ongoing.step_number, ongoing.call, end.n
         for member in reached:
             if member.container is not container:
                 member.container.suspend()
@@ -304,6 +322,7 @@ def _stopped(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: 
     if not returned:
         if container.started is not False:
             container.suspend()
+            container.failed = ongoing.step_number, ongoing.call, end.n
         return
     container.started = False
     container.startup_order = []

@@ -53,6 +53,17 @@ class Connection:
         )
 
 
+_LIFE: tuple[Hook, ...] = (
+    "on_init",
+    "set_container_interface",
+    "on_connect",
+    "on_disconnect",
+    "on_startup",
+    "on_shutdown",
+    "on_remove",
+)
+
+
 @dataclass(slots=True, eq=False)
 class Member:
     """A component instance as far as the trace has shown it.
@@ -64,6 +75,9 @@ class Member:
     ``handed_over``: the connections that its last on_startup gave it; None while that is not known.
     ``closing``: on_shutdown has come since.
     ``raising``: where its plan makes it raise; None until it is needed.
+    ``late``: it was added when its container was, or may have been, started.
+    ``phase``: on_startup or on_shutdown, whichever came last; empty before both.
+    ``told_of_removal``: on_remove has come.
     """
 
     name: str
@@ -85,6 +99,9 @@ class Member:
     handed_over: tuple[Connection, ...] | None = ()
     closing: bool = False
     raising: frozenset[Hook] | None = None
+    late: bool = False
+    phase: str = ""
+    told_of_removal: bool = False
 
     def raises(self, *hooks: Hook) -> bool:
         """Does the plan make this body raise at one of ``hooks``?"""
@@ -116,6 +133,11 @@ class Member:
     def mark_doubtful(self) -> None:
         """It is open whether it still is a member."""
         self.doubtful = self.container.of_doubt = True
+
+    @property
+    def is_sound(self) -> bool:
+        """Is it known, and raises its body nowhere in its life?"""
+        return self.instance is not None and not self.raises(*_LIFE)
 
     def live_connections(self, port: str | None = None) -> list[Connection]:
         """Its own connections that certainly stand, of ``port`` or of all required port elements."""
@@ -165,6 +187,7 @@ class Container:
     ``doubtful``: the text leaves the outcome of its removal open.
     ``members``: all it ever had.
     ``of_doubt``: one of its members is doubtful.
+    ``failed``: the operation that left open what became of it: the step, and the events with which it began and ended.
     """
 
     name: str
@@ -175,6 +198,7 @@ class Container:
     startup_order: list[Member] = field(default_factory=list)
     failed_adds: int = 0
     of_doubt: bool = False
+    failed: tuple[int, int, int] | None = None
     _live: tuple[Member, ...] | None = None
 
     def live_members(self) -> tuple[Member, ...]:

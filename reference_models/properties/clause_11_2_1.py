@@ -46,21 +46,27 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
 
 @property_at("entered", "R-11.2.3-19", at=("on_init",))
 def own_attributes_only(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
-    """On entry to on_init the body holds no attribute that its type does not have."""
+    """On entry to on_init the body holds no value of an attribute that nobody configured (attribute-init-order)."""
     event = callback.event
     declaration = runtime.scenario.components.get(event.component)
     if callback.history.initialised or declaration is None:
         return ()
-    extra = [name for name in event.attributes or {} if name not in declaration.attributes]
+    held = event.attributes or {}
+    extra = [name for name, value in held.items() if name not in declaration.attributes and not _is_default(value)]
     if not extra:
         return check.kept()
     has = ", ".join(list(declaration.attributes)[:_SHOWN]) or "none"
     return check.fail(
         "extra",
         expected=f"'{callback.event.component}' is given attributes of its type only: {has}",
-        observed=f"its attribute {extra[0]!r} was set, which it does not have",
+        observed=f"its attribute {extra[0]!r} was set to {held[extra[0]]!r}, which nobody configured",
         during=(callback.ongoing, event),
     )
+
+
+def _is_default(value: str) -> bool:
+    """May an attribute have this value although nobody configured it? A type's least value is no configuration."""
+    return not value or read_spelled(value) in (0, False, "", [])
 
 
 def _is_configured(held: str | None, configured: str) -> bool:

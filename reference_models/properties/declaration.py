@@ -12,7 +12,7 @@ from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.designation import error_name
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress
 
-_Always = Literal["ended", "entered", "unclear", "called", "answered", "replied", "noted"]
+_Always = Literal["ended", "unsettled", "entered", "unclear", "called", "answered", "replied", "noted"]
 _WithInteractions = Literal[
     "began",
     "over",
@@ -30,7 +30,7 @@ _WithInteractions = Literal[
 Moment = Literal[_Always, _WithInteractions]
 """When a property is checked.
 
-``ended``: an operation ended.
+``ended``: an operation ended; ``unsettled``: the same, if the text leaves open how, and no property was violated so far.
 ``entered``: a body was entered by a callback; ``unclear``: the same, if no property was violated so far.
 ``called``: a body was entered by a business call.
 ``answered``: a stimulus of the test came back; ``replied``: a body's own call did; ``noted``: a fragment's query did.

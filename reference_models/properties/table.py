@@ -22,6 +22,7 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_11_2_1_2,
     clause_11_2_2,
     clause_11_2_3,
+    clause_11_2_3_after_failures,
     clause_11_2_3_calls,
     clause_11_2_3_interfaces,
     declared_choices,
@@ -36,7 +37,7 @@ class PropertyTable:
     """The properties that apply to scenarios with these ``features``.
 
     ``at``: by moment.
-    ``ended``: by operation; ``entered``, ``unclear``: by hook; ``called``: by caller.
+    ``ended``, ``unsettled``: by operation; ``entered``, ``unclear``: by hook; ``called``: by caller.
     """
 
     def __init__(self, features: frozenset[Feature]) -> None:
@@ -44,6 +45,7 @@ class PropertyTable:
         callers: tuple[Caller, ...] = get_args(Caller)
         self.at: dict[Moment, tuple[Bound, ...]] = {m: checked_at(m, features) for m in get_args(Moment)}
         self.ended = {op: checked_at("ended", features, op) for op in DECLARED_ERRORS}
+        self.unsettled = {op: checked_at("unsettled", features, op) for op in DECLARED_ERRORS}
         self.entered = {hook: checked_at("entered", features, hook) for hook in hooks}
         self.unclear = {hook: checked_at("unclear", features, hook) for hook in hooks}
         self.called = {who: checked_at("called", features, who) for who in callers}

@@ -12,6 +12,7 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.toolchains.cpp.compiling import Headers
+from ucm_cts.harness.toolchains.generation import OPEN
 from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp, Standard
 from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 from ucm_cts.reference_models.mapping.idl.expectations import ExpectedIdl
@@ -29,8 +30,9 @@ class Subject(NamedTuple):
 
 @functools.cache
 def subjects() -> tuple[Subject, ...]:
-    """All models that profile idl uses."""
-    paths = [path for folder in ("mapping", "legal") for path in sorted((SUITE / "models" / folder).glob("*.xml"))]
+    """All models that profile idl uses, but for those that may be refused."""
+    folders = (SUITE / "models" / "mapping", SUITE / "models" / "legal")
+    paths = [p for folder in folders for p in sorted(folder.glob("*.xml")) if not p.name.startswith(OPEN)]
     generate = reference().generators["idl"]
     found = []
     for path in paths:

@@ -223,7 +223,7 @@ SPELLINGS: Mapping[type[Element], Spelling] = {
         _spelling(components.PortDelegation, "9.5.5.6", "port", externalPort="port"),
     )
 }
-"""All classes that a model can hold. ``ConnectionEnd`` and ``PortDelegation`` may have no name; rules speak of that."""
+"""All classes that a model can hold. ``PortDelegation`` may have no name; a rule asks for that of ``ConnectionEnd``."""
 
 
 @functools.cache

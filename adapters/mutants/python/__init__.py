@@ -64,6 +64,17 @@ MODULES = {
         "service_calls",
         "service_values",
     ),
+    "dimensions": (
+        "callers",
+        "counts",
+        "extras",
+        "failures",
+        "later_use",
+        "moments",
+        "refusals",
+        "situations",
+        "sizes",
+    ),
     "cheats": ("adapters", "replays_in_time", "replays_new_times", "replays_old_times", "tampering"),
 }
 """By the folder: the modules that register mutants, variants or cheats."""

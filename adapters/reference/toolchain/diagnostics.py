@@ -19,3 +19,13 @@ class Diagnostic:
         clause = self.clause or self.requirement.removeprefix("R-").rpartition("-")[0]
         rule = ", ".join(filter(None, (self.requirement, f"clause {clause}" if clause else "")))
         return f"{self.file}:{self.line}: error: {self.message}{f' [{rule}]' if rule else ''}"
+
+
+class CannotBeMapped(Exception):
+    """A legal model of which a generator can make nothing valid; the message names the element and the remedy."""
+
+    def __init__(self, line: int, message: str, clause: str) -> None:
+        """``line`` is that of the element."""
+        super().__init__(message)
+        self.line = line
+        self.clause = clause

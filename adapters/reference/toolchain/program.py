@@ -10,7 +10,7 @@ from pathlib import Path
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import Reading, read_model
 from ucm_cts.adapters.reference.toolchain.checking import RULES, Plans, Rule, check
-from ucm_cts.adapters.reference.toolchain.diagnostics import Diagnostic
+from ucm_cts.adapters.reference.toolchain.diagnostics import CannotBeMapped, Diagnostic
 
 Generator = Callable[[Model], Mapping[str, str]]
 """Makes files, by their paths, of a well-formed model."""
@@ -35,9 +35,14 @@ class Program:
         return (None if diagnostics else reading.model), diagnostics
 
     def generate(self, task: str, text: bytes, file: str) -> tuple[Mapping[str, str], list[Diagnostic]]:
-        """The files that ``task`` makes of the model in ``text``; none if something is wrong with it."""
+        """The files that ``task`` makes of the model in ``text``; none if something is wrong with it, or nothing valid can be made of it."""
         model, diagnostics = self.check(text, file)
-        return (self.generators[task](model) if model is not None else {}), diagnostics
+        if model is None:
+            return {}, diagnostics
+        try:
+            return self.generators[task](model), diagnostics
+        except CannotBeMapped as problem:
+            return {}, [Diagnostic(file, problem.line, str(problem), clause=problem.clause)]
 
 
 def all_rules() -> Mapping[str, Rule]:

@@ -2,11 +2,42 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Sequence
-from typing import Any
+import reprlib
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.trace import MOST
+
+T = TypeVar("T")
+
+
+class TooMany(ValueError):
+    """More than an event may hold."""
+
+
+def at_most(values: Iterable[T]) -> tuple[T, ...]:
+    """``values``, which may come without end. Raises ``TooMany``, and ``TypeError`` if they are no iterable."""
+    taken = tuple(itertools.islice(values, MOST + 1))
+    if len(taken) > MOST:
+        raise TooMany(f"more than {MOST}")
+    return taken
+
+
+_SHOWN = reprlib.Repr()
+_SHOWN.maxstring, _SHOWN.maxother = 80, 160
+_SHOWN.maxlist = _SHOWN.maxtuple = _SHOWN.maxdict = 8
+
+
+def shown(value: object) -> str:
+    """``value`` for a message, shortened; never raises."""
+    try:
+        return _SHOWN.repr(value)
+    except BaseException:  # noqa: BLE001 - the object is the framework's
+        return f"a {type(value).__name__} that cannot be shown"
+
 
 _ADDRESS = re.compile(" at 0x[0-9a-f]+")
 _LONGEST = 200
@@ -22,10 +53,7 @@ def is_datum(value: object) -> bool:
 
 def in_words(value: object) -> str:
     """``value`` and its type, for people."""
-    try:
-        text = _ADDRESS.sub("", repr(value))[:_LONGEST].encode("utf-8", "replace").decode()
-    except Exception:  # noqa: BLE001 - the value is the framework's
-        text = "a value"
+    text = _ADDRESS.sub("", shown(value))[:_LONGEST].encode("utf-8", "replace").decode()
     return f"{text} ({type(value).__name__})" if value is not None else "nothing"
 
 

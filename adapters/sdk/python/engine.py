@@ -18,7 +18,7 @@ from ucm_cts.adapters.contract.adapter import Adapter, NotOffered
 from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import Scenario, Step
 from ucm_cts.adapters.sdk.python.counting import Occupancy, Storm, switching_often
-from ucm_cts.adapters.sdk.python.data import in_words
+from ucm_cts.adapters.sdk.python.data import TooMany, at_most, in_words, shown
 from ucm_cts.adapters.sdk.python.probe import Stage, is_integer
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import KeptClass, Seal
@@ -269,9 +269,11 @@ class Performance(metaclass=KeptClass):
         def operate() -> tuple[int, ...]:
             members = self._adapter.get_components(container)
             try:
-                ids = tuple(_integer(member) for member in members)
+                ids = tuple(map(_integer, at_most(members)))
             except TypeError:
-                raise ContractBroken(f"returned {members!r}; it returns a sequence of integers") from None
+                raise ContractBroken(f"returned {shown(members)}; it returns a sequence of integers") from None
+            except TooMany as many:
+                raise ContractBroken(f"returned {many} ids, which no scenario can have led to") from None
             self._variables.saw(ids)
             return ids
 
@@ -370,17 +372,19 @@ _BETWEEN_READINGS = 0.001
 
 def _records(given: Any) -> list[t.LogRecord]:
     try:
-        records = [(severity, message) for severity, message in given]
+        records = [(severity, message) for severity, message in at_most(given)]
+    except TooMany as many:
+        raise ContractBroken(f"returned {many} records, which no scenario can have led to") from None
     except (TypeError, ValueError):
-        raise ContractBroken(f"returned {given!r}; it returns pairs of severity and text") from None
+        raise ContractBroken(f"returned {shown(given)}; it returns pairs of severity and text") from None
     if not all(isinstance(text, str) for record in records for text in record):
-        raise ContractBroken(f"returned {records!r}; it returns pairs of severity and text")
+        raise ContractBroken(f"returned {shown(records)}; it returns pairs of severity and text")
     return [t.LogRecord(severity, message) for severity, message in records]
 
 
 def _integer(value: Any) -> int:
     if not is_integer(value):
-        raise ContractBroken(f"returned {value!r}; it returns an integer")
+        raise ContractBroken(f"returned {shown(value)}; it returns an integer")
     return int(value)
 
 

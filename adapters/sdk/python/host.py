@@ -23,8 +23,8 @@ from typing import NoReturn
 from urllib.parse import urlsplit
 
 from ucm_cts.adapters.contract.messages import Traced, from_host_decoder
-from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, load
-from ucm_cts.adapters.sdk.python.template import Template, refuse
+from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, file_of, load
+from ucm_cts.adapters.sdk.python.template import Template, adopt_orphans, refuse
 
 _GRACE = 30.0  # seconds a host may continue after its connection has ended
 
@@ -37,6 +37,8 @@ def main() -> None:
     how.add_argument("--control", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
     control = socket.socket(fileno=options.control) if options.control is not None else None
+    if control:
+        adopt_orphans()
     try:
         answer = load(options.adapter)
     except CannotLoad as error:
@@ -44,7 +46,7 @@ def main() -> None:
             refuse(control, str(error))
         parser.exit(2, f"{parser.prog}: {error}\n")
     if control:
-        Template(control, lambda source, target: serve(answer, source, target)).serve()
+        Template(control, lambda source, target: serve(answer, source, target), file_of(options.adapter)).serve()
     elif options.listen:
         try:
             listener = _open_listener(options.listen)
@@ -62,6 +64,7 @@ def serve(answer: Answer, source: int, target: int) -> NoReturn:
     and the process ends without waiting for threads.
     """
     _keep_streams_apart()
+    sys.breakpointhook = _say_breakpoint
     faulthandler.enable(file=2)
     faulthandler.register(signal.SIGUSR1, file=2, all_threads=True)
 
@@ -93,6 +96,13 @@ def _keep_streams_apart() -> None:
     os.dup2(2, 1)
     with suppress(AttributeError):  # when something else stands in for the streams
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+
+
+def _say_breakpoint(*arguments: object, **named: object) -> None:
+    """A host has no terminal for a debugger: say so, and go on."""
+    caller = sys._getframe(1)
+    place = f"{caller.f_code.co_filename}:{caller.f_lineno}"
+    print(f"breakpoint() at {place}: a host has no debugger; use ucm-cts replay --in-process", file=sys.stderr)
 
 
 def _is_stuck(reply: bytes) -> bool:

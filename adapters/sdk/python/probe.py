@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
 from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
-from ucm_cts.adapters.sdk.python.data import in_words, is_datum, overwrite, snapshot
+from ucm_cts.adapters.sdk.python.data import TooMany, at_most, in_words, is_datum, overwrite, snapshot
 from ucm_cts.adapters.sdk.python.gates import Gates
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
@@ -304,7 +304,10 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             self._record(t.Siblings, raised=True)
             return
         try:
-            ids: tuple[Any, ...] = tuple(members)
+            ids: tuple[Any, ...] = at_most(members)
+        except TooMany as many:
+            self._record(t.Siblings, wrong=f"{many} ids")
+            return
         except Exception:  # noqa: BLE001 - the object is the framework's
             ids = (None,)
         given: dict[str, Any] = (
@@ -345,14 +348,18 @@ def _read(dependencies: Sequence[pm.PortConnection]) -> tuple[Given, str]:
     """The names and references that on_startup was given, and what of it is of a wrong type."""
     given: Given = []
     try:
-        for connection in dependencies:
+        for connection in at_most(dependencies):
             name = connection.from_port
             if not isinstance(name, str):
                 return [], f"{in_words(name)} as the name of a port element"
             try:
-                given.append((str.__str__(name), tuple(connection.to_port)))
+                given.append((str.__str__(name), at_most(connection.to_port)))
+            except TooMany as many:
+                return [], f"{many} references of {name}"
             except TypeError:
                 return [], f"{in_words(connection.to_port)} as the references of {name}"
+    except TooMany as many:
+        return [], f"{many} connections"
     except Exception:  # noqa: BLE001 - the object is the framework's
         return [], f"{in_words(dependencies)} as its connections"
     return given, ""

@@ -14,6 +14,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
 from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, Connector, provided_end, required_end
+from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _PORTS = ("in.api", "aux.api")
@@ -140,6 +141,21 @@ def _after_something() -> list[TestPurpose]:
         )
         text = f"A component that is {kind.name} is called by two, after a call of it has raised, and after a restart."
         purposes.append(TestPurpose(f"{kind.name}/afterwards", _CLAUSE, text, kind.different, scenarios))
+    return purposes
+
+
+def crowd_purposes() -> list[TestPurpose]:
+    """More callers than two on components of every kind: on one port, and on several ports by turns."""
+    purposes = []
+    for kind in (*_KINDS, _SELF_EXECUTING):
+        scenarios = []
+        for count in load_boundaries().callers:
+            for name, ways in (("one port", _WAYS[:1]), ("several ports", _WAYS[: len(_PORTS)])):
+                crowd = tuple(itertools.islice(itertools.cycle(ways), count))
+                scenarios.append((f"{kind.name}/{count} callers of {name}", _meeting(kind, crowd)))
+        text = f"Many callers of a component that is {kind.name} are sent while one is held inside."
+        concerned = tuple(dict.fromkeys((*kind.same, *kind.different, *_served(kind))))
+        purposes.append(TestPurpose(f"{kind.name}/crowds", _CLAUSE, text, concerned, tuple(scenarios)))
     return purposes
 
 

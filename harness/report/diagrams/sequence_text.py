@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import shlex
 import textwrap
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from ucm_cts.harness.report.diagrams.excerpt import compare
 from ucm_cts.harness.report.diagrams.sequence import Diagram, Line, lay_out
-from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding
 
@@ -63,6 +65,14 @@ def to_text(diagram: Diagram, width: int = WIDTH) -> str:
             head += f" t{line.thread:<2}" if line.events else "    "
         rows.append(f"{head}  {_drawn(line, columns, end)} {one_line(_words(line), words)}")
     return "\n".join(row[:width].rstrip() for row in rows)
+
+
+def printed_text(printed: str, file: Path, adapter: str) -> str:
+    """What a host printed while the scenario in ``file`` ran on ``adapter``, and how to debug it if it asked for a debugger."""
+    lines = [f"  | {one_line(line)}" for line in clean(printed, LONGEST_STACKS).strip().splitlines()]
+    hint = f"debug it with: ucm-cts replay {shlex.quote(str(file))} {shlex.quote(adapter)} --in-process"
+    asked = any(word in printed for word in ("breakpoint() at ", "(Pdb)", "bdb.BdbQuit"))
+    return "\n".join(["", "printed by the host", *lines, *([hint] if asked else [])])
 
 
 def _letter(number: int) -> str:

@@ -1,9 +1,9 @@
-"""Runs one command within limits of time, memory and output."""
+"""Runs one command within limits of time, memory, output and files."""
 
 from __future__ import annotations
 
 import os
-import secrets
+import resource
 import select
 import shutil
 import signal
@@ -16,10 +16,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+import psutil
+
+from ucm_cts.harness.hosting.process_tree import MARK, below, end_marked, new_mark, resident
 from ucm_cts.harness.results.values import Incident
 
 _SAMPLE_SECONDS = 0.05
-_PAGE = os.sysconf("SC_PAGE_SIZE")
+_FILES_SAMPLE_SECONDS = 0.2
+_RARELY = 10
+"""A sample of the files is taken after so many times the time that the last one took."""
+
+MOST_FILES, MOST_BYTES = 20_000, 256 << 20
+"""How many files a run may write in its folder, and how many bytes in all of them."""
+
+_LEAST_FREE = 1 << 20
+"""With fewer free bytes than this a run cannot write what it would."""
+
 _MIB = 1 << 20
 
 
@@ -73,16 +85,16 @@ def run(
     ``folder``: the working directory.
     ``limits``: the time and memory that it may use.
     ``kept``: the bytes of output that are returned, from the first.
-    ``flood``: the bytes of output that end the run.
+    ``flood``: the bytes of output that end the run. Files in ``folder`` beyond ``MOST_FILES`` and ``MOST_BYTES`` end it as well.
     ``apart``: whether errors are returned apart from output.
     ``environment``: the environment; that of this process if None.
     """
-    mark = secrets.token_hex(16)
+    mark = new_mark()
     try:
         process = subprocess.Popen(
             words,
             cwd=folder,
-            env={**(os.environ if environment is None else environment), _MARK: mark},
+            env={**(os.environ if environment is None else environment), MARK: mark},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE if apart else subprocess.STDOUT,
@@ -90,24 +102,37 @@ def run(
         )
     except OSError as error:
         return Ended(None, "", incident=Incident("unreachable", f"{words[0]} cannot be run: {error.strerror}"))
+    with suppress(OSError, ValueError):  # it has ended
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (MOST_BYTES, MOST_BYTES))
     with process:
-        supervisor = _Supervisor(process, limits, kept, flood)
+        supervisor = _Supervisor(process, limits, kept, flood, folder)
         try:
-            incident = supervisor.until_the_end()
+            incident = supervisor.until_the_end() or supervisor.excess_of_files()
         finally:
             with suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             status = process.wait()
-            _end_strays(process.pid, mark)
+            end_marked(process.pid, mark)
+    if incident is None and status == -signal.SIGXFSZ:
+        incident = _too_much()
+    if incident is None and shutil.disk_usage(folder).free < _LEAST_FREE:
+        incident = Incident(
+            "unreachable", f"no room is left in {folder.parent}; free some, or set TMPDIR to another folder"
+        )
     return Ended(status if incident is None else None, *supervisor.printed, incident)
 
 
+def _too_much() -> Incident:
+    return Incident("flood", f"more than {MOST_BYTES // _MIB} MiB of files")
+
+
 class _Supervisor:
-    def __init__(self, process: subprocess.Popen[bytes], limits: Limits, kept: int, flood: int) -> None:
-        self._process, self._limits = process, limits
+    def __init__(self, process: subprocess.Popen[bytes], limits: Limits, kept: int, flood: int, folder: Path) -> None:
+        self._process, self._limits, self._folder = process, limits, folder
         self._kept, self._flood, self._total = kept, flood, 0
         self._sampled = time.monotonic()
         self._deadline = self._sampled + limits.seconds
+        self._sample_files_at = self._sampled + _FILES_SAMPLE_SECONDS
         self._poll = select.poll()
         streams = [stream for stream in (process.stdout, process.stderr) if stream is not None]
         self._texts = {stream.fileno(): bytearray() for stream in streams}
@@ -131,6 +156,21 @@ class _Supervisor:
                 return Incident("hang", f"no end after {self._limits.seconds:g} s")
             if self._exceeds_memory():
                 return Incident("memory", f"more than {self._limits.memory} MiB of memory")
+            if time.monotonic() > self._sample_files_at and (excess := self.excess_of_files()) is not None:
+                return excess
+        return None
+
+    def excess_of_files(self) -> Incident | None:
+        """What is too much of the files in the folder of the run."""
+        begun = time.monotonic()
+        size = 0
+        for files, entry in enumerate(_entries(self._folder), 1):
+            with suppress(OSError):
+                size += entry.stat(follow_symlinks=False).st_blocks * _BLOCK
+            if size > MOST_BYTES or files > MOST_FILES:
+                return _too_much() if size > MOST_BYTES else Incident("flood", f"more than {MOST_FILES} files")
+        now = time.monotonic()
+        self._sample_files_at = now + max(_FILES_SAMPLE_SECONDS, _RARELY * (now - begun))
         return None
 
     def _is_over(self) -> bool:
@@ -156,42 +196,23 @@ class _Supervisor:
         if now < self._sampled + _SAMPLE_SECONDS:
             return False
         self._sampled = now
-        return _resident(self._process.pid) > self._limits.memory * _MIB
+        tree = {psutil.Process(self._process.pid), *below(self._process.pid)} if self._process.poll() is None else set()
+        return resident(tree, self._limits.memory) > self._limits.memory
 
 
-_MARK = "UCM_CTS_RUN"
-"""The variable in the environment by which all processes of a run are known."""
-
-_ROUNDS = 50
-"""How many times strays are searched for, because they may start others while they are ended."""
+_BLOCK = 512
+"""Bytes of a block, as the system counts them."""
 
 
-def _end_strays(first: int, mark: str) -> None:
-    """End the processes with ``mark`` in their environment, all of which began after the one with the number ``first``."""
-    wanted = f"{_MARK}={mark}".encode()
-    for _ in range(_ROUNDS):
-        strays = [number for number in _since(first) if wanted in _environment_of(number)]
-        if not strays:
-            return
-        for number in strays:
-            with suppress(OSError):
-                os.kill(number, signal.SIGKILL)
-        time.sleep(0.001)
-
-
-def _since(first: int) -> Iterator[int]:
-    """The processes with numbers that have been given since ``first``; all of them if counting has begun anew."""
-    last = int(Path("/proc/loadavg").read_text().split()[-1])
-    for name in os.listdir("/proc"):
-        if name.isdecimal() and (last < first or int(name) > first):
-            yield int(name)
-
-
-def _environment_of(number: int) -> list[bytes]:
-    """The initial environment of a process; empty if it has ended or belongs to another user."""
-    with suppress(OSError), open(f"/proc/{number}/environ", "rb") as stream:
-        return stream.read().split(b"\0")
-    return []
+def _entries(folder: Path) -> Iterator[os.DirEntry[str]]:
+    """Everything below ``folder``; links are not followed."""
+    waiting = [str(folder)]
+    while waiting:
+        with suppress(OSError), os.scandir(waiting.pop()) as inside:
+            for entry in inside:
+                yield entry
+                if entry.is_dir(follow_symlinks=False):
+                    waiting.append(entry.path)
 
 
 @contextmanager
@@ -206,16 +227,3 @@ def own_folder() -> Iterator[Path]:
         except (OSError, RecursionError):
             for command in (("chmod", "-R", "u+rwx"), ("rm", "-rf")):
                 subprocess.run([*command, "--", str(folder)], stderr=subprocess.DEVNULL, check=False)
-
-
-def _resident(group: int) -> int:
-    """Bytes that all processes of the group hold together, as far as the system reports."""
-    used = 0
-    for entry in os.scandir("/proc"):
-        if entry.name.isdecimal():
-            with suppress(OSError, IndexError, ValueError):
-                with open(f"/proc/{entry.name}/stat", "rb") as stream:
-                    fields = stream.read().rpartition(b") ")[2].split()
-                if int(fields[2]) == group:
-                    used += int(fields[21]) * _PAGE
-    return used

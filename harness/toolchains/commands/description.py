@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import re
 import shutil
 import sys
 from pathlib import Path
@@ -16,6 +15,7 @@ from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
 from ucm_cts.adapters.contract.metamodel.writing import CANONICAL, Dialect
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, convert, read_toml
+from ucm_cts.harness.toolchains.commands.expressions import WrongExpression, compiled
 
 Task = Literal["check", "idl", "cpp11", "cpp03"]
 """What a tool chain can do with a model."""
@@ -26,6 +26,10 @@ DIAGNOSTIC = r"^(?P<file>.*?)[:(](?P<line>[0-9]+)(?:[:,][0-9]+)?\)?\s*:"
 """Finds file and line in a diagnostic such as ``model.xml:12: ...``, ``model.xml:12:5: ...`` or ``model.xml(12,5): ...``."""
 
 LARGEST = 256 * 1024
+"""Bytes that a description may have."""
+
+MOST_SECONDS, MOST_MEMORY = 86_400, 1 << 20
+"""The greatest limits of a call: seconds, and MiB."""
 
 
 class Command(Value, frozen=True):
@@ -94,8 +98,6 @@ class ToolChain(Value, frozen=True):
 
 def read_toolchain(path: Path) -> ToolChain:
     """The tool chain that the file at ``path`` describes. Raises ``DocumentError``."""
-    if path.exists() and not path.is_file():
-        raise DocumentError(path, None, "is no plain file; give the name of a file that describes the tool chain")
     document, lines = read_toml(path, LARGEST)
     _check_keys(path, document, lines)
     places = {"$": 1} | {f"$.{place}": line for place, line in lines.items()}
@@ -105,8 +107,10 @@ def read_toolchain(path: Path) -> ToolChain:
         _check(path, task, described.command_for(task), lines)
     if not described.product.strip():
         raise DocumentError(path, lines.get("product"), "product is empty; say what is to be certified")
-    if not (described.seconds > 0 and described.memory > 0):
-        raise DocumentError(path, lines.get("seconds"), "seconds and memory are greater than 0")
+    if not 0 < described.seconds <= MOST_SECONDS:
+        raise DocumentError(path, lines.get("seconds"), f"seconds is greater than 0 and at most {MOST_SECONDS}")
+    if not 0 < described.memory <= MOST_MEMORY:
+        raise DocumentError(path, lines.get("memory"), f"memory is greater than 0 and at most {MOST_MEMORY} (MiB)")
     folder = path.parent.resolve()
     beside = {task: _beside(folder, described.command_for(task)) for task in ("cpp11", "cpp03")}
     return msgspec.structs.replace(described, **beside, folder=str(folder), source=str(path))
@@ -250,9 +254,9 @@ def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int
     if not all(0 < status < 256 for status in command.refuses):
         raise wrong("refuses", "refuses lists exit statuses, which are from 1 to 255; take the others out")
     try:
-        groups = re.compile(command.diagnostic, re.MULTILINE).groupindex
-    except re.error as error:
-        raise wrong("diagnostic", f"the diagnostic is no regular expression: {error}") from None
+        groups = compiled(command.diagnostic).groupindex
+    except WrongExpression as error:
+        raise wrong("diagnostic", str(error)) from None
     for group in ("line", "file") if several else ("line",):
         if group not in groups:
             raise wrong("diagnostic", f"the diagnostic has no group (?P<{group}>...)")

@@ -6,7 +6,9 @@ import os
 import re
 import shutil
 import signal
-from collections.abc import Iterator, Mapping, Sequence
+import threading
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,11 +18,14 @@ from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Incident, Processed
 from ucm_cts.harness.toolchains.commands.bounded import Ended, own_folder, run
 from ucm_cts.harness.toolchains.commands.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
+from ucm_cts.harness.toolchains.commands.expressions import matches
 
 SEVERAL = 40
 """Models for one call that takes several."""
 
 _OUTPUT = 1 << 18
+_OUTPUT_OF_SEVERAL = 1 << 22
+"""Bytes of output that are read, of a call with one model and with several."""
 _FILES = 2_000
 _FILES_BYTES = 64 << 20
 _ENTRIES = 20_000
@@ -58,6 +63,9 @@ class Processor(Protocol):
     def at_once(self, task: Task) -> int:
         """How many models one call of ``process_all`` should get."""
 
+    def warnings(self) -> tuple[str, ...]:
+        """What the vendor should know of how the calls went, a sentence each."""
+
 
 class CommandLine:
     """A tool chain behind its command lines; each call gets a folder and a process group of its own."""
@@ -65,6 +73,8 @@ class CommandLine:
     def __init__(self, toolchain: ToolChain) -> None:
         """Raises ``DocumentError`` if a program is not there."""
         self._toolchain = toolchain
+        self._together_calls: Counter[str] = Counter()
+        self._counting = threading.Lock()
         self._programs: dict[Task, tuple[Command, list[str]]] = {}
         for task in ("check", "idl", "cpp11", "cpp03"):
             command = toolchain.command_for(task)
@@ -76,8 +86,19 @@ class CommandLine:
 
     def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         """Where one call takes several models it must be clear which it refuses; if it is not, each gets a call of its own."""
-        made = self._together(task, models) if len(models) > 1 else None
+        made = None
+        with suppress(OSError):  # the disk may be full, which each model will show
+            made = self._together(task, models) if len(models) > 1 else None
         return made or [self.process(task, name, text) for name, text in models]
+
+    def warnings(self) -> tuple[str, ...]:
+        calls = self._together_calls.total()
+        return tuple(
+            f"{number} of {calls} calls with several models {why}: their models were checked again, one by one, which is slow; "
+            f"{_MENDS[why]}"
+            for why, number in self._together_calls.items()
+            if why
+        )
 
     def _together(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response] | None:
         command, words = self._programs[task]
@@ -86,19 +107,14 @@ class CommandLine:
             for file, (_, text) in zip(files, models, strict=True):
                 file.write_text(text, encoding="utf-8")
             filled = [str(f) for word in words for f in (files if word == MODELS else (word,))]
-            ended = run(filled, folder, self._toolchain)
-        if ended.incident or _odd_status(ended.status, command) or _died(ended):
-            return None
-        printed: dict[str, list[str]] = {str(file): [] for file in files}
-        for line in ended.output.splitlines():
-            found = re.match(command.diagnostic, line)
-            if (
-                found
-                and not _REMARK.match(line[found.end() :])
-                and (named := str(Path(folder, found["file"] or ""))) in printed
-            ):
-                printed[named].append(line.replace(named, MODEL_FILE))
-        if (ended.status == 0) == any(printed.values()):
+            ended = run(filled, folder, self._toolchain, kept=_OUTPUT_OF_SEVERAL)
+        printed: dict[str, list[str]] = {file.name: [] for file in files}
+        for name, _, line in diagnostics_in(ended.output, command.diagnostic, printed):
+            printed[name].append(line.replace(str(folder / name), MODEL_FILE).replace(name, MODEL_FILE))
+        why = _not_clear(ended, command, any(printed.values()))
+        with self._counting:
+            self._together_calls[why] += 1
+        if why:
             return None
         shown = tuple(word.replace(MODELS, MODEL_FILE) for word in _by_hand(command, words))
         responses = []
@@ -109,6 +125,14 @@ class CommandLine:
         return responses
 
     def process(self, task: Task, name: str, text: str) -> Response:
+        try:
+            return self._alone(task, name, text)
+        except OSError as error:
+            incident = Incident("unreachable", f"the model cannot be written: {error.strerror or error}")
+            shown = self._programs[task][0].command
+            return Response(Processed(name, task, text, shown, None, "", incident), None)
+
+    def _alone(self, task: Task, name: str, text: str) -> Response:
         command, words = self._programs[task]
         with own_folder() as folder:
             model, out = folder / MODEL_FILE, folder / OUT_FOLDER
@@ -147,6 +171,9 @@ class InProcess:
     def at_once(self, task: Task) -> int:
         return SEVERAL
 
+    def warnings(self) -> tuple[str, ...]:
+        return ()
+
     def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         return [self.process(task, name, text) for name, text in models]
 
@@ -166,16 +193,51 @@ class InProcess:
         return Response(processed, not diagnostics, frozenset(diagnostic.line for diagnostic in diagnostics), files)
 
 
+def diagnostics_in(output: str, expression: str, files: Collection[str]) -> Iterator[tuple[str, str, str]]:
+    """File, line number and full text of each diagnostic in ``output`` that names one of ``files`` and is no remark.
+
+    ``expression`` is searched for in all the output, where ``^`` and ``$`` are the ends of a line; files are compared by their
+    last names, and one that the expression does not give is the model. The same holds for calls with one model and with several.
+    """
+    for match in matches(expression, output):
+        begin = output.rfind("\n", 0, match.start()) + 1
+        end = output.find("\n", match.end())
+        end = len(output) if end < 0 else end
+        file = Path((match.groupdict().get("file") or MODEL_FILE).strip()).name
+        if file in files and not _REMARK.match(output[match.end() : end]):
+            yield file, match["line"] or "", output[begin:end]
+
+
 def named_lines(output: str, diagnostic: str, model: str) -> frozenset[int]:
     """The lines of ``model`` that ``output`` names; numbers beside the name of another file do not count."""
     last = model.count("\n") + 1
-    lines: set[int] = set()
-    for match in re.finditer(diagnostic, output[:_OUTPUT], re.MULTILINE):
-        file = (match.groupdict().get("file") or MODEL_FILE).strip()
-        number = match["line"] or ""
-        if Path(file).name == MODEL_FILE and number.isdecimal() and len(number) < 10 and 0 < int(number) <= last:
-            lines.add(int(number))
-    return frozenset(lines)
+    numbers = (number for _, number, _ in diagnostics_in(output[:_OUTPUT], diagnostic, (MODEL_FILE,)))
+    return frozenset(
+        int(number) for number in numbers if number.isdecimal() and len(number) < 10 and 0 < int(number) <= last
+    )
+
+
+_TOO_LONG = f"printed more than {_OUTPUT_OF_SEVERAL >> 20} MiB"
+_NO_ANSWER = "came to no answer"
+_UNNAMED = "refused, and no diagnostic named one of their files"
+_CONTRADICTION = "ended with exit status 0, although diagnostics named some of their files"
+_MENDS = {
+    _TOO_LONG: "print less of each",
+    _NO_ANSWER: "the report shows which model it was, if it happened again",
+    _UNNAMED: "let each diagnostic name its file, correct 'diagnostic' in [check], or write {model} for {models}",
+    _CONTRADICTION: "refuse with an exit status, or begin the text after the line number with 'warning' or 'note'",
+}
+
+
+def _not_clear(ended: Ended, command: Command, named: bool) -> str:
+    """Why a call with several models does not say which it refuses; empty if it does. ``named``: diagnostics name some."""
+    if ended.incident or _odd_status(ended.status, command) or _died(ended):
+        return _NO_ANSWER
+    if len(ended.output.encode()) >= _OUTPUT_OF_SEVERAL:
+        return _TOO_LONG
+    if (ended.status == 0) != named:
+        return ""
+    return _CONTRADICTION if named else _UNNAMED
 
 
 def _odd_status(status: int | None, command: Command) -> Incident | None:

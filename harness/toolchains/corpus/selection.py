@@ -16,6 +16,7 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import read, read_text
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.toolchains.corpus.cases import Case, Variant, changed, load_cases
+from ucm_cts.harness.toolchains.corpus.misplacement import UNDER, Legal, misplaced
 from ucm_cts.harness.toolchains.operators.operator import OPERATORS, Applications, Operator
 
 LEGAL = SUITE / "models" / "legal"
@@ -40,6 +41,13 @@ class Question:
     changed: frozenset[int] = frozenset()
     under: tuple[str, ...] = ()
 
+    @property
+    def family(self) -> str:
+        """What it has in common with the models that the same operator, or the same case, makes."""
+        made_by = self.name.partition("/")[0]
+        operator = OPERATORS.get(made_by)
+        return operator.family if operator is not None else made_by
+
 
 class WholeModel(Value, frozen=True):
     """A legal model of ``suite/models/legal``: refusing it breaks ``accepts``, unless a simpler one is refused, too."""
@@ -53,7 +61,7 @@ class WholeModel(Value, frozen=True):
 def questions() -> tuple[Question, ...]:
     """All of them, legal models before what is made of them. Raises ``DocumentError``."""
     legal = (*_whole_models(), *_of_cases())
-    return (*legal, *_of_operators(legal))
+    return (*legal, *_of_operators(legal), *_misplaced(legal))
 
 
 @functools.cache
@@ -69,6 +77,15 @@ def _whole_models() -> Iterator[Question]:
         path = LEGAL / whole.file
         text = etree.tostring(etree.fromstring(read_text(path).encode()), encoding="unicode")
         yield Question(path.stem, whole.accepts, "accept", text, under=whole.under)
+
+
+def _misplaced(legal: Sequence[Question]) -> Iterator[Question]:
+    """Elements where the meta-model has no room for them."""
+    models = [Legal(q.name, q.text, q.under) for q in legal if q.due == "accept" and not q.twin]
+    for one in misplaced(models):
+        changed = differing_lines(one.twin.text, one.text)
+        under = (*one.twin.under, *UNDER)
+        yield Question(one.name, one.requirement, "refuse", one.text, one.because, one.twin.name, changed, under)
 
 
 def _of_operators(legal: Sequence[Question]) -> Iterator[Question]:

@@ -183,7 +183,10 @@ class _Tree:
         else:
             elements = self._descent.get(one.number, [])
             if one.kind == "is-element":
-                yield from [] if elements else [self._found("it does not", owner)]
+                if not elements:
+                    yield self._found("it does not", owner)
+                elif all(_is_hidden(owner, base) for base in elements):
+                    yield self._found(f"it derives from {_path(elements[0])}, but not publicly", owner)
                 return
             if not elements:
                 raise NotThere("no class PortElementObject is derived from")
@@ -243,6 +246,30 @@ def _bases(cursor: Any) -> list[Any]:
                     found[_path(base)] = base
                     waiting.append(base)
     return list(found.values())
+
+
+def _is_hidden(cursor: Any, base: Any) -> bool:
+    """Whether every way from the class to its ``base`` that the headers show leads through a base that is not public.
+
+    Ways through instances of templates are not seen; where there is no other one it is not hidden.
+    """
+    wanted = _path(base.type.get_canonical().get_declaration())
+    waiting, met, reached = [(cursor, True)], set[tuple[str, bool]](), False
+    while waiting:
+        current, public = waiting.pop(0)
+        for child in current.get_children():
+            if child.kind != cindex.CursorKind.CXX_BASE_SPECIFIER:
+                continue
+            above = child.type.get_canonical().get_declaration()
+            open_way = public and child.access_specifier == cindex.AccessSpecifier.PUBLIC
+            if _path(above) == wanted:
+                if open_way:
+                    return False
+                reached = True
+            if (_path(above), open_way) not in met:
+                met.add((_path(above), open_way))
+                waiting.append((above, open_way))
+    return reached
 
 
 def _pure(cursor: Any) -> Iterator[Any]:

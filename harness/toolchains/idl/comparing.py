@@ -30,7 +30,8 @@ CHECKS = {
     "idl_interfaces": "Interfaces and exceptions have the operations, parameters, results, fields and ancestors of the model.",
     "idl_modules": "Each module is a module that holds what the model's module holds, a template where abstract types are used.",
     "idl_components": "Component types and implementations are interfaces with their ancestors, attributes and getters.",
-    "idl_interactions": "Nothing is made of connectors and port types.",
+    "idl_interactions": "Nothing is made of connectors, patterns, port types, policy definitions, composites and configuration parameters.",
+    "idl_decoration": "Annotations and comments in a model change nothing of what is generated.",
     "idl_standard": "Declarations that clause 12 prints are as printed, wherever they stand.",
 }
 """The checks that the catalogue names among its rules, and what each checks."""

@@ -288,6 +288,7 @@ FACTS: Mapping[type[exp.Expected], Callable[[Vendor, Any], list[Wrong]]] = {
     exp.Access: interfaces.access,
     exp.Getter: interfaces.getter,
     exp.NoGetter: interfaces.no_getter,
+    exp.NoMember: interfaces.no_member,
     exp.Numbered: numbered,
     exp.Tagged: tagged,
     exp.Indexed: indexed,

@@ -246,6 +246,18 @@ def no_getter(vendor: Vendor, fact: exp.NoGetter) -> list[Wrong]:
     ]
 
 
+def no_member(vendor: Vendor, fact: exp.NoMember) -> list[Wrong]:
+    """Whether an interface has nothing that is called like a setting of the platform."""
+    holder = _holder(vendor, fact.path, ())
+    patterns = [_pattern(name) for name in fact.names]
+    inside = holder.entry.inner.entries if holder.entry.inner is not None else ()
+    return [
+        Wrong(f"nothing called {entry.declaration.name}", "it is there", entry.declaration.place)
+        for entry in inside
+        if any(pattern.fullmatch(entry.declaration.name) for pattern in patterns)
+    ]
+
+
 def _explained(vendor: Vendor, fact: exp.NoGetter, hit: Hit) -> bool:
     """Whether another port's getter has the name by chance: a port's own name may hold an underscore."""
     name = hit.entry.declaration.name

@@ -1,4 +1,4 @@
-"""Checks parsed IDL: no declaration twice, each name declared, no other building blocks."""
+"""Checks parsed IDL: no declaration twice, each name declared, and before it is used, no other building blocks."""
 
 from __future__ import annotations
 
@@ -28,6 +28,36 @@ def invalid(vendor: Vendor, read: Files) -> Iterator[Wrong]:
         for name in _names(vendor, entry):
             place = entry.declaration.place
             yield Wrong("every name to mean something", f"'{name}' in {entry.declaration.name}", place)
+        for name in _late(entry):
+            observed = f"{entry.declaration.name} uses '{name}', which is declared after it"
+            yield Wrong("each name to be declared before it is used", observed, entry.declaration.place)
+
+
+def _late(entry: Entry) -> Iterator[str]:
+    """The names in a declaration that the same file declares only after it; interfaces that are no bases need only be announced."""
+    declaration = entry.declaration
+    in_full = _scoped(declaration)
+    type_ = type_of(declaration)
+    announced = [] if type_ is None else list(_of_type(type_))
+    for name in (*in_full, *announced):
+        hit = resolve(name, entry.scope)
+        if hit is None or isinstance(hit.entry.declaration, (idl.Module, idl.ModuleInstance)):
+            continue
+        found = hit.entry.declaration
+        known = [found] if name in in_full else [found, *_announcing(hit.entry)]
+        here = [one.place for one in known if one.place.file == declaration.place.file and one.place.line]
+        if len(here) == len(known) and all(_position(place) > _position(declaration.place) for place in here):
+            yield name
+
+
+def _announcing(entry: Entry) -> list[idl.Declaration]:
+    """The forward declarations of what ``entry`` declares."""
+    same_name = entry.scope.members.get(entry.declaration.name.lower(), [])
+    return [one.declaration for one in same_name if isinstance(one.declaration, idl.Forward)]
+
+
+def _position(place: idl.Place) -> tuple[int, int]:
+    return place.line, place.column
 
 
 def _in_annotation(entry: Entry) -> bool:

@@ -19,7 +19,7 @@ def item_without_type(binding: etree._Element) -> bool:
     if spec is None or role is None or role.find(f"InvolvedItem[@item='{item}']") is None:
         return False
     spec.remove(binding)
-    return True
+    return spec.find("InteractionItemBinding") is not None
 
 
 @breaks("R-9.5.3.5-03", at="InteractionItemBinding", under=("abstract-actual-types=refused",))

@@ -9,7 +9,7 @@ from lxml import etree
 from ucm_cts.harness.toolchains.operators.modules import DECLARED, MEMBERS, is_returned
 from ucm_cts.harness.toolchains.operators.operator import breaks
 
-NOT_AGAIN = ("Language", "Enumerator", "Method", "ExceptionField")
+NOT_AGAIN = ("Connection", "ConnectionEnd", "ConnectorPort", "Language", "Enumerator", "Method", "ExceptionField")
 """Whose names have requirements of their own, or none."""
 
 

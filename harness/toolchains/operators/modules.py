@@ -27,7 +27,16 @@ DECLARED = (
     *("ComponentPortTechnicalPolicy", "ComponentTechnicalPolicy"),
 )
 MEMBERS = (
-    *("Attribute", "Enumerator", "ExceptionField", "Method", "Parameter"),
+    *(
+        "Attribute",
+        "Connection",
+        "ConnectionEnd",
+        "ConnectorPort",
+        "Enumerator",
+        "ExceptionField",
+        "Method",
+        "Parameter",
+    ),
     *("ConfigurationParameter", "InteractionItem", "InteractionRole", "Part", "Port", "PortElement"),
 )
 NAMED = (*DECLARED, *MEMBERS)

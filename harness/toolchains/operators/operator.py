@@ -34,8 +34,8 @@ Kind = tuple[str, str, bool]
 class Operator:
     """``change`` at an element of a tag in ``at`` breaks ``requirement``, or keeps the model legal if ``breaks`` is False.
 
-    ``under`` are readings (``option=value``) that must be declared. One place is enough for those of a large family,
-    applied ``once``.
+    ``under`` are readings (``option=value``) that must be declared. One place is enough for those of a large ``family``,
+    applied ``once``; the family is what one missing check lets through.
     """
 
     name: str
@@ -45,6 +45,12 @@ class Operator:
     breaks: bool
     under: tuple[str, ...] = ()
     once: bool = False
+    of_family: str = ""
+
+    @property
+    def family(self) -> str:
+        """That of many operators, or the operator itself."""
+        return self.of_family or self.name
 
     @property
     def because(self) -> str:
@@ -65,11 +71,12 @@ def keeps(requirement: str, at: str | tuple[str, ...], under: tuple[str, ...] = 
     return _registering(requirement, at, under, False)
 
 
-def family(requirement: str, at: str, name: str, because: str, change: Change, broken: bool) -> None:
-    """Register one of many operators that differ in a value only, to be applied once."""
+def family(requirement: str, at: str, names: tuple[str, str], because: str, change: Change, broken: bool) -> None:
+    """Register one of many operators that differ in a value only, to be applied once; ``names`` are its own and the family's."""
+    name, of = names
     assert name not in OPERATORS, f"two operators are called {name}"
     change.__doc__ = because
-    OPERATORS[name] = Operator(name, requirement, (at,), change, broken, once=True)
+    OPERATORS[name] = Operator(name, requirement, (at,), change, broken, once=True, of_family=of)
 
 
 def _registering(

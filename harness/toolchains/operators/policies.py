@@ -40,3 +40,14 @@ def manages_a_port_of_a_stranger(managed: etree._Element) -> bool:
     stranger.append(gate)
     managed.set("name", f"{path(stranger)}.{gate.get('name')}")
     return True
+
+
+@breaks("R-9.5.4.2-01", at="ComponentPortTechnicalPolicy")
+def port_policy_of_no_component(policy: etree._Element) -> None:
+    """A policy on ports has no managed component, which it inherits from policies on components, and no implementation names it."""
+    for managed in policy.findall("ManagedComponent"):
+        policy.remove(managed)
+    for used in list(policy.getroottree().iter("TechnicalPolicy")):
+        around = used.getparent()
+        if around is not None and resolved(used, str(used.get("name")), str(policy.tag)) is policy:
+            around.remove(used)

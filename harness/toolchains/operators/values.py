@@ -107,7 +107,8 @@ def _register(place: Place, kind: str, typed: Typed, how: str, value: str) -> No
     said = place.called.replace("_", " ")
     because = f"A {said} of {kind} may be {value}" if how == "fits" else f"A {said} of {kind} is {value}"
     requirement = place.accepts if how == "fits" else place.refuses
-    family(requirement, place.at, f"{place.called}_{kind.lower()}_{how}", because, change, how != "fits")
+    names = f"{place.called}_{kind.lower()}_{how}", f"values_{how}"
+    family(requirement, place.at, names, because, change, how != "fits")
 
 
 def _new_type(element: etree._Element, typed: Typed) -> str:

@@ -170,6 +170,36 @@ def implementation_facts(subject: Subject, names: Names, templates: Templates) -
     yield exp.Inherits(**subject.about("R-12.8.2-03", path=path), base=COMPONENT_OBJECT)
     for policy, both in policies_of(subject, names):
         yield from _policy(subject, policy, path, both, templates)
+        yield from _without_parameters(subject, policy, path)
+        if type_ is not None and not any(port.name.startswith("tp") for port, _ in ports_of(type_)):
+            yield from _without_getters(subject, policy, path_of(type_))
+
+
+def _without_getters(subject: Subject, declared: Declared, path: exp.Path) -> Iterator[exp.Expected]:
+    """The getters of a policy belong to the body: the interface at ``path`` is that of all bodies of a component type.
+
+    Names of port getters do not look like theirs there.
+    """
+    policy, scope = declared
+    assert isinstance(policy, mc.ComponentTechnicalPolicy)
+    definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
+    for ancestor in lineage(definition) if definition is not None else []:
+        for element in getattr(ancestor.element, "port_elements", ()):
+            if definition is not None and element.kind == "PROVIDED":
+                names = policy_getter_names(policy.name, definition.element.name, element.name)
+                yield exp.NoMember(**subject.about("R-12.8.2-04", policy, path=path), names=names)
+
+
+def _without_parameters(subject: Subject, declared: Declared, path: exp.Path) -> Iterator[exp.Expected]:
+    """No member of the body is called like a configuration parameter of a policy, unless the model has another reason for it."""
+    policy, scope = declared
+    assert isinstance(policy, mc.ComponentTechnicalPolicy)
+    definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
+    for ancestor in lineage(definition) if definition is not None else []:
+        for parameter in getattr(ancestor.element, "configuration_parameters", ()):
+            given = [parameter.name, *(f"{verb}_{parameter.name}" for verb in ("get", "set"))]
+            names = (*given, f"get_tp_{policy.name}_{parameter.name}")
+            yield exp.NoMember(**subject.about("R-9.1.2-02", policy, path=path), names=names)
 
 
 def policies_of(subject: Subject, names: Names) -> Iterator[tuple[Declared, bool]]:

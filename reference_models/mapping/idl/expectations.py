@@ -31,11 +31,15 @@ STANDS_FOR: dict[str, tuple[str, ...]] = {
     "idl_modules": tuple(f"R-12.7-{n:02}" for n in range(2, 13)),
     "idl_components": (
         *(f"R-12.8.1-{n:02}" for n in range(1, 7)),
-        *("R-12.8.2-01", "R-12.8.2-02", "R-12.8.2-03", "R-12.8.3-01", "R-12.8.3-02"),
+        *("R-12.8.2-01", "R-12.8.2-02", "R-12.8.2-03", "R-12.8.2-04", "R-12.8.3-01", "R-12.8.3-02"),
         *(f"R-12.8.4-{n:02}" for n in (2, 4, 5, 6, 7)),
         *(f"R-12.8.5-{n:02}" for n in (2, 3, 4, 5)),
     ),
-    "idl_interactions": ("R-12.9-02", "R-12.9-03", "R-12.9-05"),
+    "idl_interactions": (
+        *("R-12.9-02", "R-12.9-03", "R-12.9-05"),
+        *("R-9.1.2-02", "R-9.3.3.7-01", "R-9.4.1-07", "R-9.5.5.9-01"),
+    ),
+    "idl_decoration": ("R-9.2.9.4-04",),
     "idl_standard": (
         *(f"R-12.10-{n:02}" for n in range(29, 39)),
         "R-12.11.1-01",
@@ -220,6 +224,12 @@ class Getter(Expected, frozen=True, kw_only=True):
 
 class NoGetter(Expected, frozen=True, kw_only=True):
     """The interface has none of the operations ``names``, not even inherited."""
+
+    names: tuple[str, ...]
+
+
+class NoMember(Expected, frozen=True, kw_only=True):
+    """The interface has no operation and no attribute of these names itself; ``*`` is any part of a name."""
 
     names: tuple[str, ...]
 

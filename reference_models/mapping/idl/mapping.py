@@ -6,9 +6,14 @@ from collections.abc import Iterator
 
 from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel import contracts as c
-from ucm_cts.adapters.contract.metamodel.aspects import NonfunctionalAspectModule
+from ucm_cts.adapters.contract.metamodel.aspects import NonfunctionalAspectModule, TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
-from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionModule, PortType
+from ucm_cts.adapters.contract.metamodel.interactions import (
+    ConnectorDefinition,
+    InteractionModule,
+    InteractionPattern,
+    PortType,
+)
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, each_element
 from ucm_cts.reference_models.mapping.idl import expectations as exp
@@ -73,7 +78,7 @@ def _facts(model: Model, names: Names) -> Iterator[exp.Expected]:
                 yield from component_facts(subject, bodies.get(subject.path, ()), templates)
             case mc.AtomicComponentImplementation():
                 yield from implementation_facts(subject, names, templates)
-            case ConnectorDefinition() | PortType():
+            case _ if type(element) in _UNMAPPED:
                 yield from _unmapped(subject)
             case _ if isinstance(element, MODULES) and (subject.path, type(element)) not in seen:
                 seen.add((subject.path, type(element)))
@@ -128,13 +133,25 @@ def _has_declarations(scope: Scope) -> bool:
     return any(_has_declarations(inner) for several in scope.modules.values() for inner in several)
 
 
+_UNMAPPED: dict[type[Named], str] = {
+    ConnectorDefinition: "R-12.9-02",
+    PortType: "R-12.9-05",
+    InteractionPattern: "R-9.3.3.7-01",
+    TechnicalPolicyDefinition: "R-9.4.1-07",
+    mc.CompositeComponentImplementation: "R-9.5.5.9-01",
+}
+"""What no declaration is made of, and which requirement says so."""
+
+
 def _unmapped(subject: Subject) -> Iterator[exp.Expected]:
-    """Connectors and port types have no mapping; a name that something else of the module has says nothing."""
+    """Some classes have no mapping; a name that something else of the module has says nothing."""
     element, scope = subject
     if any(isinstance(one.element, (*MAPPED, *MODULES)) for one in scope.members[element.name]):
         return
-    connector = isinstance(element, ConnectorDefinition)
-    yield exp.Undeclared(**subject.about("R-12.9-02" if connector else "R-12.9-05"))
+    yield exp.Undeclared(**subject.about(_UNMAPPED[type(element)]))
     if isinstance(element, ConnectorDefinition):
         for port in element.ports:
             yield exp.Undeclared(**subject.about("R-12.9-03", port))
+    if isinstance(element, (ConnectorDefinition, TechnicalPolicyDefinition)):
+        for parameter in element.configuration_parameters:
+            yield exp.Undeclared(**subject.about("R-9.1.2-02", parameter))

@@ -8,12 +8,14 @@ import pytest
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.contracts import ContractModule
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.spelling import IGNORED, SPELLINGS, Spelling, contained
 from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.models.core_models import CORE
+from ucm_cts.harness.toolchains.corpus.printed_schema import PRINTED, printed_schema
 from ucm_cts.harness.toolchains.corpus.schema import SCHEMA, second_opinion, violations
 from ucm_cts.harness.toolchains.corpus.selection import questions
 
@@ -103,3 +105,42 @@ def inside(cls: type[Element]) -> tuple[etree._Element, etree._Element]:
     holders = [outer for outer in SPELLINGS if cls in contained(outer)]
     root, place = inside(Model if Model in holders else holders[0])
     return root, etree.SubElement(place, SPELLINGS[cls].tag)
+
+
+# the schema of all printed spellings
+
+
+def printed() -> etree.XMLSchema:
+    return etree.XMLSchema(etree.parse(PRINTED / SCHEMA.name))
+
+
+def test_the_printed_schema_is_made_of_the_canonical_one() -> None:
+    files = {path.name: path.read_bytes() for path in PRINTED.glob("*.xsd")}
+    assert files == dict(printed_schema()), "run python -m ucm_cts.harness.toolchains.corpus.printed_schema"
+
+
+def test_models_fit_the_printed_schema_as_they_are_printed() -> None:
+    schema = printed()
+    for path in (*CORE.glob("*.xml"), *MAPPING.glob("*.xml")):
+        assert schema.validate(etree.parse(path)), (path, schema.error_log)
+    legal = [q for q in questions() if q.due == "accept" and not q.under]
+    assert [q.name for q in legal if not schema.validate(etree.fromstring(q.text))] == []
+
+
+@pytest.mark.parametrize("spelling", SPELLINGS.values(), ids=lambda spelling: spelling.tag)
+def test_the_printed_schema_takes_every_printed_spelling(spelling: Spelling) -> None:
+    schema = printed()
+    for tag in (spelling.tag, *spelling.other_tags):
+        root, place = inside(spelling.cls)
+        place.tag = tag
+        for other in spelling.other_attributes:
+            place.set(other, "x")
+        schema.validate(root)
+        unknown = [e.message for e in schema.error_log if "not allowed" in e.message or "not expected" in e.message]
+        assert unknown == []
+
+
+def test_the_printed_schema_refuses_what_stands_in_the_wrong_place() -> None:
+    root, place = inside(ContractModule)
+    etree.SubElement(place, "PortType", name="p")
+    assert not printed().validate(root)

@@ -24,6 +24,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.campaign import WAITED, Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.changing import LONGEST, changed
 from ucm_cts.harness.exploring.core_writer import CoreWriter
@@ -37,7 +38,6 @@ from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.scripts import Script, problems, to_scenario
 from ucm_cts.harness.results.incident_causes import DistinctIncidents, cause_of_incident
 from ucm_cts.harness.results.incidents import may_wait
-from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.results.values import Execution, Incident, IncidentKind
 
 pytestmark = pytest.mark.slow
@@ -101,7 +101,7 @@ def first_failing(seed: int) -> tuple[int, list[bytes]]:
     """How many scenarios it took, and the first few of them."""
     memory = Memory(InMemoryExampleDatabase(), "", "container")
     with Driver(locate(SUBJECT, in_process=True), seed) as driver:
-        exploring = Exploration(driver, "container", default_statement(), memory)
+        exploring = Exploration(Campaign(driver, "container"), driver.seed, memory)
         drawn = [
             msgspec.json.encode(purpose.scenarios) for purpose, _ in zip(exploring._purposes(), range(5), strict=False)
         ]
@@ -177,9 +177,9 @@ def test_it_ends_when_nothing_can_be_tried_any_more(adapter: str) -> None:
     limits = Limits(seconds=0.2, incident_seconds=0.1)
     with Driver(locate(f"hostile.failing:{adapter}"), 1, limits) as driver:
         memory = Memory(InMemoryExampleDatabase(), "", "container")
-        exploring = Exploration(driver, "container", default_statement(), memory)
-        *_, far = exploring.explore()
-        report = exploring.report()
+        campaign = Campaign(driver, "container")
+        *_, far = Exploration(campaign, driver.seed, memory).explore()
+        report = campaign.report()
     met, left_out = report.incidents
     assert far.failures == 1
     assert met.incident.kind == ("hang" if adapter == "HangsInAdd" else "exit")
@@ -233,9 +233,50 @@ def test_failures_hidden_by_incidents_stay_remembered() -> None:
     memory = Memory(database, "product", "container")
     for adapter, seconds in (("DiesInAdd", 60.0), ("DiesInAdd", 0.0), ("DiesAtOnce", 60.0)):
         with Driver(locate(f"hostile.failing:{adapter}"), 1, Limits(incident_seconds=seconds)) as driver:
-            (replayed,) = Exploration(driver, "container", default_statement(), memory).replay()
+            (replayed,) = Exploration(Campaign(driver, "container"), 1, memory).replay()
         assert (replayed.remembered, replayed.fate) == (failure, "unknown")
         assert memory.recall() == [failure]
+
+
+# what a run draws
+
+
+def measures(folder: Path) -> Any:
+    return json.loads((folder / "report.json").read_text())["measures"]
+
+
+DRAWN = "scenarios drawn at random"
+
+
+def test_every_run_of_a_whole_profile_draws_scenarios() -> None:
+    for options, drawn in (("--explore", "7scenarios"), 7), (("--explore", "0s"), None), (("-k", "12.10"), None):
+        assert ucm_cts("run", MENDED, *options, "--seed", "1", "--out", "out").err == ""
+        assert measures(Path("out")).get(DRAWN) == drawn
+    wrong = ucm_cts("run", MENDED, "--explore", "often")
+    assert (wrong.status, "'often' is no budget" in wrong.err) == (2, True)
+
+
+def test_what_a_run_has_drawn_is_tried_again_by_the_next_one(found: Path) -> None:
+    shutil.copytree(found / "examples", "out/examples")
+    arguments = "--explore", "1scenarios", "--seed", "1", "--out", "out"
+    wrong = ucm_cts("run", SUBJECT, *arguments)
+    assert (wrong.status, f"✗ {REQUIREMENT}" in wrong.out) == (1, True)
+    before = remembered_files(Path("out/examples"))
+    assert before
+    assert ucm_cts("run", MENDED, *arguments).status == 0
+    assert remembered_files(Path("out/examples")) == []
+
+
+def test_a_call_that_waits_for_a_start_is_no_incident_of_a_run() -> None:
+    variant = "ucm_cts.adapters.mutants.python:calls_wait_for_the_start"
+    limits = Limits(0.5)
+    with Driver(locate(variant), 4, limits) as driver:
+        campaign = Campaign(driver, "container")
+        exploring = Exploration(campaign, 4, None, may_wait=True)
+        assert [far.failures for far, _ in zip(exploring.explore(), range(12), strict=False)] == [0] * 12
+        report = campaign.report()
+    assert report.incidents == ()
+    assert report.effort.measures[WAITED] > 0
 
 
 # which incidents are the same

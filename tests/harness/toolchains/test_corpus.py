@@ -5,10 +5,15 @@ from __future__ import annotations
 import pytest
 from lxml import etree
 
+from ucm_cts.adapters.contract.metamodel.common import SimpleComment
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS, contained
+from ucm_cts.adapters.contract.metamodel.writing import Dialect
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import SUITE, load_requirements
 from ucm_cts.harness.results.statement import default_statement
-from ucm_cts.harness.toolchains.acceptance import Answer, Judgement, judge
+from ucm_cts.harness.toolchains.acceptance import Answer, Judgement, judge, lines_of_consequences
+from ucm_cts.harness.toolchains.corpus.misplacement import is_broken_in, pairs
 from ucm_cts.harness.toolchains.corpus.selection import Question, load_operators, questions
 from ucm_cts.harness.toolchains.unspecified_spellings import CONSTRUCTS
 
@@ -101,3 +106,32 @@ def test_an_unspecified_spelling_that_is_accepted_elsewhere_counts(construct: st
 def _judged_without(refused: set[str]) -> list[Judgement]:
     """What becomes of a tool chain that answers as it must, but refuses the models of these names."""
     return judge(ASKED, {q.name: Answer(q.due == "accept" and q.name not in refused) for q in ASKED})
+
+
+def test_a_checker_may_print_any_one_of_its_findings() -> None:
+    """Each diagnostic of a wrong model is related to what is wrong with it, also where it is a consequence."""
+    twins = {q.name: q.text for q in ASKED}
+    unrelated = [
+        f"{q.name}: {diagnostic}"
+        for q in ASKED
+        if q.due == "refuse" and q.changed
+        for diagnostic in PROGRAM.check(q.text.encode(), "model.xml")[1]
+        if diagnostic.line not in lines_of_consequences(q, twins)
+    ]
+    assert not unrelated, "\n".join(unrelated)
+
+
+def test_every_class_is_misplaced_and_holds_something_misplaced() -> None:
+    asked = {(inner, outer) for inner, outer in pairs()}
+    for cls in SPELLINGS:
+        if cls not in (Model, SimpleComment):
+            assert sum(1 for inner, _ in asked if inner is cls) >= 10, cls
+        assert sum(1 for _, outer in asked if outer is cls) >= 10, cls
+    assert not any(inner in contained(outer) for inner, outer in asked)
+
+
+def test_a_dialect_with_one_tag_for_two_classes_is_not_asked_to_tell_them_apart() -> None:
+    one_tag = Dialect(tags={"StructureField": "Field", "ExceptionField": "Field"})
+    assert not is_broken_in(one_tag, "misplaced/StructureField-in-Exception")
+    assert is_broken_in(one_tag, "misplaced/StructureField-in-Enumeration")
+    assert is_broken_in(one_tag, "structures/broken-1")

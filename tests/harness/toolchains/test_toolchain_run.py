@@ -21,6 +21,7 @@ from ucm_cts.harness.toolchains.corpus.selection import Question, differing_line
 
 pytestmark = pytest.mark.slow
 
+REFERENCE = "ucm_cts.adapters.reference.toolchain"
 FAKE = SUPPORT / "fake_toolchain.py"
 CASE = "R-9.2.4.3-02"
 """The models of one requirement are enough to tell behaviours apart."""
@@ -280,3 +281,29 @@ def test_options_for_adapters_are_wrong_use(here: Path) -> None:
     assert "is of frameworks" in ucm_cts("run", "--toolchain", toolchain, "--profile", "core").err
     assert "--toolchain" in ucm_cts("run", "--profile", "pim").err
     assert "cannot be read" in ucm_cts("run", "--toolchain", "nothing.toml").err
+
+
+def test_a_checker_that_accepts_everything_has_one_cause(here: Path) -> None:
+    command = [sys.executable, "-c", "", "{models}"]
+    outcome = ucm_cts("run", "--toolchain", describe(here / "deaf.toml", command), "-k", "9.2.4", "--out", "out")
+    report = json.loads((here / "out" / "report.json").read_text())
+    failed = [r for r in report["requirements"] if r["verdict"] == "fail"]
+    assert len(failed) > 10
+    assert all(len(r["findings"]) == 1 for r in failed)
+    assert f"and {len(failed) - 1} more requirements that fail for causes shown above" in outcome.out
+    measures = report["measures"]
+    assert measures["legal models accepted"] == measures["legal models"]
+    assert "broken models refused" not in measures
+    assert f"refuses what is broken: 0 of {measures['broken models']:,} models" in outcome.out
+    assert len((here / "out" / "report.html").read_bytes()) < 1_000_000
+
+
+def test_what_no_broken_model_can_fail_does_not_pass(here: Path) -> None:
+    described = describe(here / "toolchain.toml", [sys.executable, "-m", REFERENCE, "check", "{models}"])
+    ucm_cts("run", "--toolchain", described, "-k", "R-9.2.7.1-04", "--out", "out")
+    report = json.loads((here / "out" / "report.json").read_text())
+    (inherited,) = [r for r in report["requirements"] if r["id"] == "R-9.2.7.1-04"]
+    assert inherited["verdict"] == "not applicable"
+    assert inherited["exercised"]
+    assert inherited["reason"].startswith("accepted side only")
+    assert "inherited-names = observed" in inherited["reason"]

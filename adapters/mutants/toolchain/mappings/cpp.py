@@ -10,6 +10,8 @@ from ucm_cts.adapters.contract.metamodel.contracts import Constant
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.mutants.toolchain.registry import breaks
 from ucm_cts.adapters.mutants.toolchain.rewriting import Wrong, register, table
+from ucm_cts.adapters.reference.toolchain.cpp.generator import Generation
+from ucm_cts.adapters.reference.toolchain.cpp.types import CPP11
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 for _model, _wrong in table("mappings/cpp.yaml", dict[str, dict[str, Wrong]]).items():
@@ -35,3 +37,9 @@ def nothing_generated_cpp11(program: Program) -> Program:
 def nothing_generated_cpp03(program: Program) -> Program:
     """Writes nothing for models with constants."""
     return _without_constants(program, "cpp03")
+
+
+@breaks("R-13-04", task="cpp11")
+def enumerators_clash_in_cpp11(program: Program) -> Program:
+    """Enumerators of two enumerations stand in one namespace."""
+    return replace(program, generators={**program.generators, "cpp11": lambda model: Generation(model, CPP11).files()})

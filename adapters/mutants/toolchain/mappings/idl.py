@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
+from ucm_cts.adapters.contract.metamodel.common import Named, walk
+from ucm_cts.adapters.contract.metamodel.components import CompositeComponentImplementation
+from ucm_cts.adapters.contract.metamodel.contracts import Annotation
+from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Names, each_element
 from ucm_cts.adapters.mutants.toolchain import rewriting as rw
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, named
+from ucm_cts.adapters.reference.toolchain.idl.generator import files_of
+from ucm_cts.adapters.reference.toolchain.idl.names import identifier
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 APPENDED: dict[str, tuple[str, str]] = {
@@ -56,3 +67,56 @@ def templates_are_plain_modules(program: Program) -> Program:
 def generates_nothing(program: Program) -> Program:
     """There is no file."""
     return rw.rewritten(program, lambda files: {})
+
+
+@breaks("R-12.1-03", task="idl")
+def names_clash_in_idl(program: Program) -> Program:
+    """Names that differ in case only, and enumerators of two enumerations, stand in one scope."""
+    return replace(program, generators={**program.generators, "idl": files_of})
+
+
+def _declaring(program: Program, kind: type[Named]) -> Program:
+    """An empty interface is made of each element of ``kind``, except in template modules."""
+    generate = program.generators["idl"]
+
+    def more(model: Model) -> rw.Files:
+        files = generate(model)
+        text = ""
+        for element, scope in each_element(model, Names(model)):
+            path = [identifier(part) for part in scope.path.split(SEPARATOR) if part]
+            if isinstance(element, kind) and path and not any(f"module {part}<" in files[rw.MODEL] for part in path):
+                opened = "".join(f"module {part} {{ " for part in path)
+                text += f"{opened}interface {identifier(element.name)} {{}};{' };' * len(path)}\n"
+        return {**files, rw.MODEL: files[rw.MODEL].replace(rw.GUARD, f"\n{text}{rw.GUARD}")}
+
+    return replace(program, generators={**program.generators, "idl": more})
+
+
+@breaks("R-9.3.3.7-01", task="idl", also=("R-12.1-03", "R-12.7-12"))
+def interfaces_of_patterns(program: Program) -> Program:
+    """Patterns are interfaces."""
+    return _declaring(program, InteractionPattern)
+
+
+@breaks("R-9.4.1-07", task="idl", also=("R-12.1-03",))
+def interfaces_of_policy_definitions(program: Program) -> Program:
+    """Policy definitions are interfaces."""
+    return _declaring(program, TechnicalPolicyDefinition)
+
+
+@breaks("R-9.5.5.9-01", task="idl", also=("R-12.1-03",))
+def interfaces_of_composites(program: Program) -> Program:
+    """Composites are interfaces."""
+    return _declaring(program, CompositeComponentImplementation)
+
+
+@breaks("R-9.2.9.4-04", task="idl")
+def annotated_models_become_nothing(program: Program) -> Program:
+    """Nothing is made of a model with annotations."""
+    generate = program.generators["idl"]
+
+    def unless_annotated(model: Model) -> rw.Files:
+        is_annotated = any(isinstance(element, Annotation) for module in model.modules for element in walk(module))
+        return {} if is_annotated else generate(model)
+
+    return replace(program, generators={**program.generators, "idl": unless_annotated})

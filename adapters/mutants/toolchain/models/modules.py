@@ -78,13 +78,13 @@ def last_names_count(typed: Typed, scope: Scope) -> Iterator[Complaint]:
         yield typed, f"{last} is not declared"
 
 
-@breaks("R-9.1.4.7-02")
+@breaks("R-9.1.4.7-02", also=("R-9.2.2.8-02",))
 def applications_hold_anything(program: Program) -> Program:
     """Accepts any element in an application module."""
     return _holding(program, ApplicationModule)
 
 
-@breaks("R-9.1.4.8-02")
+@breaks("R-9.1.4.8-02", also=("R-9.1.2-09", "R-9.2.2.8-02"))
 def platforms_hold_anything(program: Program) -> Program:
     """Accepts any element in a platform module."""
     return _holding(program, PlatformModule)

@@ -8,10 +8,12 @@ from typing import TypeVar
 
 import msgspec
 
-from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.modules import MODULES
+from ucm_cts.adapters.contract.metamodel.common import Element, walk
+from ucm_cts.adapters.contract.metamodel.contracts import Annotation
+from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.adapters.mutants.toolchain import rewriting as rw
+from ucm_cts.adapters.mutants.toolchain.checking import refusing_text
 from ucm_cts.adapters.mutants.toolchain.registry import named, variant
 from ucm_cts.adapters.reference.toolchain.program import Program
 
@@ -131,3 +133,22 @@ def interfaces_of_their_own_for_bindings(files: rw.Files) -> rw.Files:
         files[rw.MODEL],
     )
     return {**files, rw.MODEL: re.sub(r"(\w+_message_api)::message_intf (?=get_)", r"\1_intf ", text)}
+
+
+@variant(task="idl")
+def refuses_keywords(program: Program) -> Program:
+    """Refuses a model with names that are words of IDL."""
+    return refusing_text(program, rb'name="(module|struct|interface)"')
+
+
+@variant(task="idl")
+def annotations_as_remarks(program: Program) -> Program:
+    """Says in a remark how many annotations the model has."""
+    generate = program.generators["idl"]
+
+    def remarking(model: Model) -> rw.Files:
+        files = generate(model)
+        number = sum(isinstance(element, Annotation) for module in model.modules for element in walk(module))
+        return {**files, rw.MODEL: f"// annotations: {number}\n{files[rw.MODEL]}"} if number else files
+
+    return replace(program, generators={**program.generators, "idl": remarking})

@@ -10,6 +10,7 @@ from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinitio
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, each_element
+from ucm_cts.adapters.reference.toolchain.clashes import refuse_clashes
 from ucm_cts.adapters.reference.toolchain.cpp import interfaces
 from ucm_cts.adapters.reference.toolchain.cpp.components import (
     Body,
@@ -38,7 +39,8 @@ LANGUAGES = ("c++", "cpp")
 
 
 def generate_cpp11(model: Model) -> Mapping[str, str]:
-    """Files by their paths."""
+    """Files by their paths. Raises ``CannotBeMapped``."""
+    refuse_clashes(model, identifier, "13.2.3", "C++11", members=False)
     return Generation(model, CPP11).files()
 
 

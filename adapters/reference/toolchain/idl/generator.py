@@ -7,7 +7,7 @@ opened again, so they are written in one piece.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract.metamodel import components as mc
@@ -17,6 +17,7 @@ from ucm_cts.adapters.contract.metamodel.contracts import Constant, DataType, Ex
 from ucm_cts.adapters.contract.metamodel.interactions import PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
+from ucm_cts.adapters.reference.toolchain.clashes import refuse_clashes
 from ucm_cts.adapters.reference.toolchain.idl.components import PORT_ELEMENT_OBJECT, Components, port_element_interfaces
 from ucm_cts.adapters.reference.toolchain.idl.names import Templates, identifier, parameter
 from ucm_cts.adapters.reference.toolchain.idl.standard import STANDARD
@@ -29,7 +30,13 @@ HEAD = ["#ifndef MODEL_IDL", "#define MODEL_IDL", '#include "ucm.idl"', ""]
 
 
 def generate(model: Model) -> Mapping[str, str]:
-    """The files of ``model``, by their names."""
+    """The files of ``model``, by their names. Raises ``CannotBeMapped``."""
+    refuse_clashes(model, lambda name: name.replace("-", "_").lower(), "12.2", "IDL", members=True)
+    return files_of(model)
+
+
+def files_of(model: Model) -> Mapping[str, str]:
+    """The files of ``model``, by their names, in which names may clash."""
     writer = Writer(model)
     lines = [*HEAD, *writer.written(), "", "#endif", ""]
     return {"ucm.idl": STANDARD, "model.idl": "\n".join(lines)}
@@ -53,7 +60,7 @@ class Writer:
         self._templates = Templates(self._names)
         self._components = Components(model, self._names, self._templates)
         self._with_base = port_element_interfaces(model, self._names)
-        self._units: dict[int, Unit] = {}
+        self._units: dict[int, list[Unit]] = {}
         self._top = [unit for module in model.modules for unit in self._of_module(module, self._names.root, ())]
         self._done: set[int] = set()
         self._announced: set[int] = set()
@@ -69,16 +76,24 @@ class Writer:
                 units += self._of_module(child, scope, () if template else inner)
             elif isinstance(child, DECLARED):
                 units.append(Unit(() if template else inner, child, scope))
-        if template:
-            units = [Unit(path, module, around, units)]
         for unit in units:
             self._enter(unit, unit)
+        if template:
+            units = [Unit(path, module, around, units)]
+            self._enter(units[0], units[0])
         yield from units
 
     def _enter(self, unit: Unit, whole: Unit) -> None:
-        self._units[id(unit.element)] = whole
+        """Note that ``unit`` is a part of ``whole``, or the same."""
+        known = self._units.setdefault(id(unit.element), [])
+        if not any(one is whole for one in known):
+            known.append(whole)
         for one in unit.inside:
             self._enter(one, whole)
+
+    def _unit(self, declared: Declared, here: Collection[int]) -> Unit | None:
+        """The unit among those ``here``, by their identities, in which ``declared`` is written; None if it is in none."""
+        return next((unit for unit in self._units.get(id(declared.element), ()) if id(unit) in here), None)
 
     def written(self) -> Lines:
         """All declarations of the model."""
@@ -100,22 +115,21 @@ class Writer:
                 continue
             begun.add(id(unit))
             waiting.append((unit, True))
-            needed = [one for one in self._needed(unit) if id(one) in here]
-            waiting += [(one, False) for one in reversed(needed)]
+            waiting += [(one, False) for one in reversed(self._needed(unit, here))]
 
-    def _needed(self, unit: Unit) -> list[Unit]:
+    def _needed(self, unit: Unit, here: Collection[int]) -> list[Unit]:
         """The units that must stand before ``unit``; interfaces in signatures need only be announced."""
         found = []
         for declared, strong in self._references(unit):
-            whole = self._units.get(id(declared.element))
+            whole = self._unit(declared, here)
             if whole is not None and whole is not unit and (strong or whole.inside):
                 found.append(whole)
         return found
 
-    def _announcements(self, unit: Unit, here: set[int]) -> Iterator[tuple[tuple[str, ...], Lines]]:
+    def _announcements(self, unit: Unit, here: Collection[int]) -> Iterator[tuple[tuple[str, ...], Lines]]:
         for declared, strong in self._references(unit):
-            whole = self._units.get(id(declared.element))
-            if whole is None or strong or whole.inside or id(whole) not in here or whole is unit:
+            whole = self._unit(declared, here)
+            if whole is None or strong or whole.inside or whole is unit:
                 continue
             if id(whole) not in self._done | self._announced:
                 self._announced.add(id(whole))

@@ -6,14 +6,14 @@ from collections.abc import Iterable, Iterator
 
 from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel import contracts as c
-from ucm_cts.adapters.contract.metamodel.aspects import TechnicalAspect, TechnicalPolicyDefinition
+from ucm_cts.adapters.contract.metamodel.aspects import ProgrammingLanguages, TechnicalAspect, TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionPattern, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, rule
 
-_NEED_NO_NAME = (mc.ConnectionEnd, mc.PortDelegation)
+_NEED_NO_NAME = (mc.PortDelegation,)
 _HAVE_RULES_OF_THEIR_OWN = (*MODULES, c.StructureField, c.UnionCase)
 
 _KINDS: tuple[tuple[str, tuple[type[Named], ...]], ...] = (
@@ -108,7 +108,14 @@ _MEMBERS: tuple[tuple[str, str, Owners, dict[str, str]], ...] = (
         {"port_elements": "port elements of"},
     ),
     ("ports_differ", "R-9.1.4.1-02", (mc.ComponentType,), {"ports": "ports of component type"}),
-    ("parts_differ", "R-9.1.4.1-02", (mc.CompositeComponentImplementation,), {"parts": "parts of"}),
+    (
+        "parts_differ",
+        "R-9.1.4.1-02",
+        (mc.CompositeComponentImplementation,),
+        {"parts": "parts of", "connections": "connections of"},
+    ),
+    ("ends_differ", "R-9.1.4.1-02", (mc.Connection,), {"ends": "ends of connection"}),
+    ("languages_differ", "R-9.1.4.1-02", (ProgrammingLanguages,), {"languages": "programming languages"}),
 )
 """The rules that names of members differ: name, requirement, owners, and what messages call the members of each field."""
 
@@ -116,9 +123,9 @@ _MEMBERS: tuple[tuple[str, str, Owners, dict[str, str]], ...] = (
 def _differ(name: str, fields: dict[str, str]) -> FindComplaints:
     """The rule that no two members in one of ``fields`` have the same name."""
 
-    def complaints(owner: Named, _scope: Scope) -> Iterator[Complaint]:
+    def complaints(owner: Element, _scope: Scope) -> Iterator[Complaint]:
         for field, what in fields.items():
-            yield from repeated(getattr(owner, field), f"{what} {owner.name}")
+            yield from repeated(getattr(owner, field), f"{what} {getattr(owner, 'name', '')}".rstrip())
 
     complaints.__name__ = name
     return complaints

@@ -14,7 +14,7 @@ from ucm_cts.reference_models.mapping.cpp.expected import Expected
 
 CHECKS = {
     "cpp_probes": "A probe, compiled and run against the headers, finds each declaration to be what the mapping says.",
-    "cpp_headers": "Each header compiles alone and twice, and all together, as the standard of the profile, and redefines no keyword.",
+    "cpp_headers": "Each header compiles alone and twice, and all together in either order, as the standard of the profile, and redefines no keyword.",
     "cpp_body": "Classes that implement the abstract classes, with all that they inherit, compile, link and are called.",
     "cpp_unexpected": "libclang finds nothing in the headers that the mapping excludes and no probe could see.",
     "cpp_generated": "The tool chain writes files for each legal model.",

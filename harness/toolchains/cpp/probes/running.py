@@ -101,7 +101,7 @@ class _Comparing:
     def compared(self) -> Comparison:
         with tempfile.TemporaryDirectory(prefix="ucm-cts-probes-") as folder, ThreadPoolExecutor(_THREADS) as threads:
             alone = list(threads.map(lambda name: self._alone(name, Path(folder)), self._headers.names))
-            of_headers = [found for one in alone for found in one]
+            of_headers = [found for one in alone for found in one] or self._in_another_order(Path(folder))
             if self._seen.problem:
                 wanted = (e.requirement for e in self._expected.expected if isinstance(e.claim, LISTED))
                 return self._comparison(of_headers, ([], {}, dict.fromkeys(wanted, self._seen.problem)))
@@ -142,10 +142,25 @@ class _Comparing:
             return [self._of_header(name, compiled.problem, (name, 0))]
         return [self._of_header(name, _message_of(e), self._place_in(name, e)) for e in compiled.errors[:1]]
 
-    def _of_header(self, name: str, observed: str, place: tuple[str, int]) -> Difference:
+    def _in_another_order(self, folder: Path) -> list[Difference]:
+        """Whether all headers compile together in the order of their names turned round; probes include them in that order."""
+        names = [name for name in self._headers.names if compiling.can_be_named(name)]
+        if self._seen.problem or len(names) < 2:
+            return []
+        own = folder / "another-order"
+        own.mkdir()
+        included = "\n".join(map(self._headers.include, reversed(names)))
+        how = f"in the order {', '.join(reversed(names))}"
+        text = f"{included}\nint main() {{ return 0; }}\n"
+        compiled = compiling.compile_text(text, own, self._headers, self._expected.standard, self._compiler)
+        return [
+            self._of_header(names[0], _message_of(e), self._place_in(names[0], e), how) for e in compiled.errors[:1]
+        ]
+
+    def _of_header(self, name: str, observed: str, place: tuple[str, int], how: str = "alone and twice") -> Difference:
         standard = {"cpp11": "C++11", "cpp03": "C++03"}[self._expected.standard]
         requirement = HEADERS[self._expected.standard]
-        says = f"{name} compiles as {standard}, alone and twice"
+        says = f"{name} compiles as {standard}, {how}"
         return Difference(requirement, "cpp_headers", "", 0, says, observed, *place)
 
     def _probe(self, folder: Path) -> None:

@@ -16,8 +16,8 @@ from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import use
 
 @rule("R-9.5.4.2-01", mc.ComponentTechnicalPolicy)
 def manages_some_component(policy: mc.ComponentTechnicalPolicy, _scope: Scope) -> Iterator[Complaint]:
-    """A policy on components manages at least one; of policies on ports the text does not say so clearly."""
-    if not policy.managed_components and not isinstance(policy, mc.ComponentPortTechnicalPolicy):
+    """A policy manages at least one component; that field is inherited by policies on ports (9.5.4.3)."""
+    if not policy.managed_components:
         yield policy, f"policy {policy.name} manages no component; add a ManagedComponent"
 
 

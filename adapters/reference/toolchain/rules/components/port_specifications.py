@@ -22,7 +22,9 @@ def names_a_role(spec: PortRoleSpec, scope: Scope) -> Iterator[Complaint]:
 
 @rule("R-9.5.3.4-02", PortRoleSpec, under="partial-role-bindings=refused")
 def items_of_the_role_are_bound(spec: PortRoleSpec, scope: Scope) -> Iterator[Complaint]:
-    """Each item that the role involves has an actual type."""
+    """Each item that the role involves has an actual type, or none has."""
+    if not spec.bindings:
+        return
     role = scope.member(spec.role, mi.InteractionPattern, "roles")
     pattern = _pattern(spec, scope)
     if role is None or pattern is None:

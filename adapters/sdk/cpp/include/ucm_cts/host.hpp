@@ -104,6 +104,7 @@ inline void serve(int in, int out, const Product& product, const AdapterFactory&
         }
         text = answerer.answer(line, size);
         text += '\n';
+        std::fflush(stdout);  // what the framework has printed comes before the answer
         const bool sent = write_all(out, text.data(), text.size());
         if (answerer.stuck()) {
             _exit(0);  // not exit: what the stuck threads use must not be torn down

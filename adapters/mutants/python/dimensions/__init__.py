@@ -1,0 +1,1 @@
+"""The second set of mutants: drawn from the dimensions of provocations, not from scenarios."""

@@ -1,0 +1,466 @@
+"""What was given out long ago: ids, connections, references and containers after removal, restart and replacement."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import (
+    NotFound,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.methods import replaces
+from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks, is_below
+from ucm_cts.adapters.reference.python.connectors import Link, Taker
+from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member
+
+# ids of components
+
+
+class _KnowsSuccessors(Base):
+    """Knows which component of the same implementation came after one that was removed."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        member = self.members.get(comp_instance)
+        super().remove_component(comp_instance)
+        if member is not None:
+            self.__dict__.setdefault("gone", {})[comp_instance] = member.implementation.name
+
+    def _successor(self, number: int) -> int:
+        name = self.__dict__.get("gone", {}).get(number)
+        heirs = [m.id for m in self.members.values() if m.implementation.name == name and m.id > number]
+        return heirs[-1] if heirs and number not in self.members else number
+
+
+@breaks("R-12.10-15", also=("R-11.2.1.2-06", "R-11.2.2.1-14"))
+class removes_the_successor(_KnowsSuccessors):
+    """remove_component of a removed component removes the one of that implementation that was added later."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        super().remove_component(self._successor(comp_instance))
+
+
+@breaks("R-12.10-15")
+class gives_elements_of_the_successor(_KnowsSuccessors):
+    """get_port_element of a removed component gives that of the one of its implementation that was added later."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        return super().get_port_element(self._successor(comp_instance), port_name)
+
+
+@breaks("R-12.10-15")
+class connects_the_successor(_KnowsSuccessors):
+    """connect of a removed component connects the one of its implementation that was added later."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        return super().connect(self._successor(instance), port_name, to_port)
+
+
+@breaks("R-12.10-15", also=("R-11.2.1.2-06",))
+class removes_twice_after_a_restart(Base):
+    """A component that was removed after the container had been started twice can be removed again."""
+
+    def start(self) -> None:
+        self.__dict__["starts"] = self.__dict__.get("starts", 0) + (not self.is_started)
+        super().start()
+
+    def remove_component(self, comp_instance: int) -> None:
+        if comp_instance in self.__dict__.get("gone", ()):
+            return
+        super().remove_component(comp_instance)
+        if self.__dict__.get("starts", 0) > 1:
+            self.__dict__.setdefault("gone", set()).add(comp_instance)
+
+
+@breaks("R-12.10-15")
+class answers_for_members_of_removed_containers(Base):
+    """The manager gives port elements of members of sub-containers that have been removed."""
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        members = dict(sub_container.members) if sub_container is not None else {}
+        ContainerManager.remove_container(self.manager, sub_container)
+        self.__dict__.setdefault("gone", {}).update(members)
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        gone: Member | None = self.__dict__.get("gone", {}).get(comp_instance)
+        element = gone.body.get_portElement(port_name) if gone is not None else None
+        return element if element is not None else super().get_port_element(comp_instance, port_name)
+
+
+# ids of connections
+
+
+@breaks("R-12.10-16", also=("R-11.2.1.3-05", "R-11.2.3-06"))
+class undoes_the_successor(Base):
+    """disconnect of a connection already undone undoes the one that took its place."""
+
+    def disconnect(self, connection: int) -> None:
+        places = self.__dict__.setdefault("places", {})
+        found = self.manager.connections.get(connection)
+        if found is not None:
+            places[connection] = (found.client.id, found.port)
+        elif connection in places:
+            heirs = [c.id for c in self.manager.connections.values() if (c.client.id, c.port) == places[connection]]
+            connection = heirs[0] if heirs else connection
+        super().disconnect(connection)
+
+
+@breaks("R-12.10-16")
+class undoes_twice_after_a_restart(Base):
+    """A connection that was undone after a phase can be undone again."""
+
+    def stop(self) -> None:
+        self.__dict__["stopped"] = self.__dict__.get("stopped") or self.is_started
+        super().stop()
+
+    def disconnect(self, connection: int) -> None:
+        if connection in self.__dict__.get("gone", ()):
+            return
+        super().disconnect(connection)
+        if self.__dict__.get("stopped"):
+            self.__dict__.setdefault("gone", set()).add(connection)
+
+
+@breaks("R-11.2.2.1-10", also=("R-12.10-16",))
+class forgets_old_connection_ids(Base):
+    """A connection that has lasted two phases cannot be undone: its number is NOT_FOUND."""
+
+    def stop(self) -> None:
+        for connection in self._connections_of_members() if self.is_started else ():
+            ages = self.manager.__dict__.setdefault("ages", {})
+            ages[connection.id] = ages.get(connection.id, 0) + 1
+        super().stop()
+
+    def disconnect(self, connection: int) -> None:
+        if self.manager.__dict__.get("ages", {}).get(connection, 0) > 1:
+            raise NotFound("expired")
+        super().disconnect(connection)
+
+
+# what removal leaves behind
+
+
+@breaks("R-11.2.2.1-05", also=("R-11.2.3-11",))
+class servers_stay_in_use(Base):
+    """A component that had a client in an earlier phase cannot be removed, though it is not connected."""
+
+    def stop(self) -> None:
+        for member in self.members.values() if self.is_started else ():
+            member.__dict__["was used"] = bool(self._connections_to(member))
+        super().stop()
+
+    def _check_removable(self, member: Member) -> None:
+        super()._check_removable(member)
+        if member.__dict__.get("was used") and not self._connections_to(member):
+            raise UcmError("in use")
+
+
+@breaks("R-11.2.2.1-05", also=("R-11.2.3-11",))
+class servers_of_removed_clients_stay_in_use(Base):
+    """A component whose client was removed with its connection cannot be removed."""
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._remove(member, failures)
+        self.__dict__.setdefault("served", []).extend(member.__dict__.get("targets", ()))
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        super()._disconnect(connection, failures)
+        connection.client.__dict__.setdefault("targets", []).append(connection.target)
+
+    def _check_removable(self, member: Member) -> None:
+        super()._check_removable(member)
+        own = [self._reference_to(member, port) for port in member.implementation.provides]
+        if any(element is target for element in own for target in self.__dict__.get("served", ())):
+            raise UcmError("in use")
+
+
+@breaks("R-12.10-25", also=("R-11.2.1.2-09", "R-11.2.3-07", "R-11.2.3-14", "R-11.2.3-06"))
+class successors_inherit_connections(Base):
+    """A component gets the connections of a removed one of its implementation at start, beside its own."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        member = self.members.get(comp_instance)
+        old = self._connections_from(member) if member is not None else []
+        super().remove_component(comp_instance)
+        if member is not None and old:
+            self.__dict__.setdefault("left", {})[member.implementation.name] = old
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        left = self.__dict__.get("left", {}).get(member.implementation.name, [])
+        return [*given, *(PortConnection(c.port, (c.target,)) for c in left)]
+
+
+@breaks("R-11.2.3-06", also=("R-11.2.3-10", "R-11.2.3-08"))
+class gaps_prevent_the_start(Base):
+    """A container in which a member before others was removed cannot be started."""
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        later = any(number > member.id for number in self.members)
+        super()._remove(member, failures)
+        self.__dict__["has gap"] = self.__dict__.get("has gap") or later
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        if self.__dict__.get("has gap") and self.members:
+            raise UcmError("a member is missing")
+
+
+@breaks("R-11.2.2.1-06", also=("R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.1.3-01"))
+class serves_elements_of_the_predecessor(Base):
+    """After a replacement get_port_element gives the port element of the removed component of that implementation."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        name = self.members[comp_instance].implementation.name
+        return self.__dict__.get("gone", {}).get((name, port_name), element)  # type: ignore[no-any-return]
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        for port in member.implementation.provides:
+            self.__dict__.setdefault("gone", {})[member.implementation.name, port] = member.body.get_portElement(port)
+        super()._remove(member, failures)
+
+
+@breaks(
+    "R-11.2.3-14",
+    also=("R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.1.3-04", "R-11.2.3-10", "R-11.2.2.1-10", "R-11.1.3-01"),
+)
+class reconnects_to_the_predecessor(Base):
+    """A port that is connected again is connected to what it was connected to first."""
+
+    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
+        identifier = super()._connect_to(member, port, target)
+        first = member.__dict__.setdefault(f"first target of {port}", target)
+        self.manager.connections[identifier] = Connection(identifier, member, port, first)
+        return identifier
+
+
+# references
+
+
+class _Mortal(Proxy):
+    born = 0
+
+    def exchange(self, value: int) -> int:
+        if self._is_dead():
+            raise UcmError("the reference has expired")
+        return super().exchange(value)
+
+    def _is_dead(self) -> bool:
+        raise NotImplementedError
+
+
+class _CountsStarts(GivesOutProxies):
+    def start(self) -> None:
+        fresh = not self.is_started
+        super().start()
+        self.__dict__["starts"] = self.__dict__.get("starts", 0) + fresh
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        element.__dict__["born"] = self.__dict__.get("starts", 0)
+        return element
+
+
+class _DiesAtRestart(_Mortal):
+    def _is_dead(self) -> bool:
+        return int(self.member.container.__dict__.get("starts", 0)) > self.born + 1
+
+
+@breaks("R-11.2.1.2-07", also=("R-11.2.1.1-02", "R-11.2.3-03", "R-11.1.3-01"))
+class references_die_at_restart(_CountsStarts):
+    """A reference of get_port_element serves one phase; after a restart its calls are refused."""
+
+    proxy = _DiesAtRestart
+
+
+class _DiesIfEarly(_Mortal):
+    def _is_dead(self) -> bool:
+        return self.born == 0 and is_below(self.member.container)
+
+
+@breaks("R-11.2.1.2-07", also=("R-11.2.1.1-02", "R-11.2.3-03", "R-11.1.3-01"))
+class references_from_configuration_are_dead_below(_CountsStarts):
+    """References that were obtained before the first start of a sub-container refuse every call."""
+
+    proxy = _DiesIfEarly
+
+
+class _DiesWithNeighbours(_Mortal):
+    def _is_dead(self) -> bool:
+        return bool(self.member.container.__dict__.get("has removed"))
+
+
+@breaks("R-11.2.1.2-07", also=("R-11.2.1.1-02", "R-11.2.3-03", "R-11.1.3-01"))
+class references_die_with_a_neighbour(GivesOutProxies):
+    """Once a component was removed, the references of its neighbours refuse every call."""
+
+    proxy = _DiesWithNeighbours
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._remove(member, failures)
+        self.__dict__["has removed"] = True
+
+
+class _Given(Proxy):
+    def exchange(self, value: int) -> int:
+        if self.member.__dict__.get("lives") != self.__dict__["life"]:
+            raise UcmError("the reference is of another phase")
+        return super().exchange(value)
+
+
+@replaces("_dependencies_of", "R-11.2.3-03", also=("R-11.1.3-01", "R-11.1.2-02"))
+def serves_bodies_in_the_first_two_phases(self: Base, member: Member) -> list[PortConnection]:
+    """References that a body gets at its third start refuse every call."""
+    member.__dict__["lives"] = member.__dict__.get("lives", 0) + 1
+    given = []
+    for connection in Base._dependencies_of(self, member):
+        proxies = [_Given(target, member) for target in connection.to_port if target]
+        for proxy in proxies:
+            proxy.__dict__["life"] = min(member.__dict__["lives"], 2)
+        given.append(PortConnection(connection.from_port, tuple(proxies)))
+    return given
+
+
+# containers
+
+
+@breaks("R-12.10-17")
+class removes_containers_by_place(Base):
+    """remove_container of a removed container removes the one that was created last."""
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        if sub_container is not None and sub_container.is_removed and self.manager.sub_containers:
+            sub_container = self.manager.sub_containers[-1]
+        ContainerManager.remove_container(self.manager, sub_container)
+
+
+@breaks("R-12.10-17", also=("R-12.10-13",))
+class removes_containers_twice_if_others_are_left(Base):
+    """remove_container of a removed container returns if there are other sub-containers."""
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        if sub_container is not None and sub_container.is_removed and self.manager.sub_containers:
+            return
+        ContainerManager.remove_container(self.manager, sub_container)
+
+
+@breaks("R-11.2.2.1-14", also=("R-11.2.2.1-01", "R-11.2.2.1-03"))
+class new_containers_have_old_members(Base):
+    """A container that is created after another was removed lists the members of that one."""
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        old = list(sub_container.members) if sub_container is not None else []
+        ContainerManager.remove_container(self.manager, sub_container)
+        self.__dict__["old"] = old
+
+    def create_container(self) -> Container:
+        container = ContainerManager.create_container(self.manager)
+        container.__dict__["old"] = self.__dict__.get("old", [])
+        return container
+
+    def get_components(self) -> list[int]:
+        old = self.__dict__.get("old", []) if is_below(self) else []
+        return [*old, *super().get_components()]
+
+
+@breaks("R-11.2.2.2-05")
+class destroys_the_oldest_container_only(Base):
+    """destroy leaves out members of all sub-containers but the first."""
+
+    def destroy(self) -> None:
+        for container in self.manager.sub_containers[1:]:
+            container.members.clear()
+            container.started.clear()
+        ContainerManager.destroy(self.manager)
+
+
+@breaks("R-11.2.2.2-05")
+class destroys_without_shutting_down_below(Base):
+    """destroy does not shut down the members of sub-containers that run."""
+
+    def destroy(self) -> None:
+        for container in self.manager.sub_containers:
+            container.started.clear()
+        ContainerManager.destroy(self.manager)
+
+
+@breaks("R-11.2.2.2-05")
+class destroys_without_shutting_down_after_a_restart(Base):
+    """destroy does not shut down members that have been started more than once."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        member.__dict__["lives"] = member.__dict__.get("lives", 0) + 1
+        return super()._start_up(member, failures)
+
+    def destroy(self) -> None:
+        for container in (self.manager, *self.manager.sub_containers):
+            container.started = [m for m in container.started if m.__dict__.get("lives", 0) < 2]
+        ContainerManager.destroy(self.manager)
+
+
+@breaks("R-11.2.2.2-04")
+class removes_restarted_containers_without_shutdown(Base):
+    """remove_container does not shut down members that have been started more than once."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        member.__dict__["lives"] = member.__dict__.get("lives", 0) + 1
+        return super()._start_up(member, failures)
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        if sub_container is not None:
+            sub_container.started = [m for m in sub_container.started if m.__dict__.get("lives", 0) < 2]
+        ContainerManager.remove_container(self.manager, sub_container)
+
+
+# ends of connectors
+
+
+class _Session(Link):
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.takers and self.takers[0].member.__dict__.get("starts", 0) > 2:
+            raise UcmError("the session has ended")
+        return super()._request(method, arguments)
+
+
+@breaks("R-10.1.5.1-01", clauses=("10.1.5",), also=("R-10.1.5.1-03",))
+class knows_servers_for_two_phases(Base):
+    """A server that is started a third time serves nobody."""
+
+    link_class = _Session
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        member.__dict__["starts"] = member.__dict__.get("starts", 0) + 1
+        return super()._start_up(member, failures)
+
+
+@breaks("R-10.1.5.1-01", clauses=("10.1.5",), also=("R-10.1.5.1-05", "R-10.1.5.1-03"))
+class does_not_serve_after_detaching(Link):
+    """A connection whose server was detached serves nobody, although another server has been attached."""
+
+    has_lost_one = False
+
+    def remove(self, taker: Taker) -> None:
+        super().remove(taker)
+        self.has_lost_one = True
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.has_lost_one:
+            raise UcmError("there is no server")
+        return super()._request(method, arguments)
+
+
+@breaks("R-10.1.2-10", clauses=("10.1.2",), also=("R-10.1.6.1-04", "R-10.1.6.1-03"))
+class drops_messages_after_a_removal(Link):
+    """Once a receiver was removed from a connection, the others get nothing, and push returns ok."""
+
+    def remove(self, taker: Taker) -> None:
+        super().remove(taker)
+        self.__dict__["has lost one"] = True
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        if not self.__dict__.get("has lost one"):
+            super()._post(taker, method, arguments)

@@ -1,0 +1,1 @@
+"""Scenarios derived from dimensions: what provokes a framework, thinned by covering arrays."""

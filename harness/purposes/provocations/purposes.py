@@ -1,0 +1,77 @@
+"""Test purposes of provocations: one for each entrance and action, and one for each refused operation."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
+from ucm_cts.harness.purposes.provocations.application import Application
+from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
+from ucm_cts.harness.purposes.provocations.dimensions import Cell, load_cells, load_dimensions
+from ucm_cts.harness.purposes.scripts import TestPurpose
+
+
+def provocation_purposes() -> list[TestPurpose]:
+    """All provocations of the suite."""
+    cells = load_cells()
+    return [
+        *_purposes("provocation", "A body {action} in {entrance}.", [c for c in cells if c.entrance.hook]),
+        *_purposes("refusal", "It is refused that {entrance}.", [c for c in cells if not c.entrance.hook]),
+    ]
+
+
+def duration_purposes() -> list[TestPurpose]:
+    """Bodies that take their time: each entrance once, for each duration."""
+    dimensions, durations = load_dimensions(), load_boundaries().durations
+    held = next(action for action in dimensions.actions if action.name == "is held")
+    purposes = []
+    for entrance in dimensions.entrances:
+        order = itertools.product(
+            dimensions.aftermaths, dimensions.places[::-1], dimensions.positions[1:], dimensions.kinds
+        )
+        cells = (Cell(entrance, held, *others) for others in order)
+        cell = next(cell for cell in cells if not dimensions.why_empty(cell))
+        name = f"duration/{entrance.name}"
+        scenarios = tuple((f"{name}/{ms} ms, {cell.name}", Application(cell, ms).scenario()) for ms in durations)
+        text = f"A body takes its time in {entrance.name}."
+        exercises = entrance.exercises
+        purposes.append(TestPurpose(name, exercises[0].split("-")[1], text, exercises, scenarios))
+    slow = tuple((f"duration/call of a peer/{ms} ms", _slow_peer(ms)) for ms in durations)
+    text = "A component that another one calls takes its time."
+    return [*purposes, TestPurpose("duration/call of a peer", "11.1.3", text, ("R-11.1.3-01",), slow)]
+
+
+def _slow_peer(milliseconds: int) -> Scenario:
+    components = {
+        "server": Declaration(("in.api",), plan={"exchange": (s.HoldAtGate("inside"),)}),
+        "client": Declaration(("in.api",), ("out.api",), plan={"exchange": (s.CallPort("out.api", 7),)}),
+    }
+    steps: tuple[Step, ...] = (
+        *(s.AddComponent(name) for name in components),
+        *(s.GetPortElement(name, "in.api", f"to {name}") for name in components),
+        s.Connect("client", "out.api", "to server", "link"),
+        s.Start(),
+        s.Invoke("to client", 1, thread="caller"),
+        s.ReachGate("inside"),
+        s.Pause(milliseconds),
+        s.OpenGate("inside"),
+        s.Join("caller"),
+        s.Stop(),
+    )
+    return Scenario(components, steps)
+
+
+def _purposes(family: str, text: str, cells: Iterable[Cell]) -> list[TestPurpose]:
+    by_purpose: dict[tuple[str, str], list[Cell]] = {}
+    for cell in cells:
+        by_purpose.setdefault((cell.entrance.name, cell.action.name), []).append(cell)
+    purposes = []
+    for (entrance, action), some in by_purpose.items():
+        name = f"{family}/{entrance}" + (f"/{action}" if some[0].entrance.hook else "")
+        exercises = some[0].entrance.exercises
+        scenarios = tuple((f"{name}/{cell.name}", Application(cell).scenario()) for cell in some)
+        described = text.format(action=action, entrance=entrance)
+        purposes.append(TestPurpose(name, exercises[0].split("-")[1], described, exercises, scenarios))
+    return purposes

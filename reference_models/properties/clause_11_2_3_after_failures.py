@@ -1,0 +1,102 @@
+"""Properties about what follows a failure: the text leaves open how far an operation came in which a body raised, and not that
+sound members are left behind (11.2.2, callback-failure).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.reference_models.conclusions import Concluded
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation import OperationInProgress
+from ucm_cts.reference_models.model.runtime import Container, Member, lane
+from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+_STARTS_ALL, _STOPS_ALL = "R-11.2.2.1-11", "R-11.2.2.1-12"
+_REMOVES_ALL, _DESTROYS_ALL = "R-11.2.2.2-04", "R-11.2.2.2-05"
+
+
+@property_at("unsettled", _STARTS_ALL, _STOPS_ALL, at=("start", "stop"))
+def nobody_left_behind(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
+    """A start or a stop that returns after one that failed leaves no sound member out."""
+    container = ongoing.container
+    if not isinstance(ongoing.end, Return) or container.started is not None or runtime.destroyed or container.doubtful:
+        return ()
+    starts = ongoing.operation == "start"
+    sound = [m for m in container.live_members() if m.is_sound and not m.doubtful and not m.late]
+    left = [m for m in sound if (m.phase == "on_startup") != starts and (m.phase or starts)]
+    if not left:
+        return ()
+    hook = "on_startup" if starts else "on_shutdown"
+    return _left(check, ongoing, container, left, hook, _STARTS_ALL if starts else _STOPS_ALL)
+
+
+@property_at("unsettled", _REMOVES_ALL, _DESTROYS_ALL, at=("remove_container", "destroy"))
+def nobody_dropped(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
+    """When remove_container or destroy returned although a body raised, or a container is gone after a remove_container that
+    failed, each sound member has received on_remove.
+    """
+    step = ongoing.step
+    if isinstance(step, s.RemoveContainer):
+        container = runtime.containers.get(step.container)
+        is_gone = isinstance(ongoing.end, Raise) and ongoing.end.error == "NOT_FOUND"
+        if container is None or container.removed or not (isinstance(ongoing.end, Return) or is_gone):
+            return ()
+        if is_gone and not container.doubtful:
+            return ()
+        members: Iterable[Member] = container.live_members()
+    elif isinstance(ongoing.end, Return) and not runtime.destroyed:
+        members = [m for c in runtime.containers.values() for m in c.live_members()]
+    else:
+        return ()
+    left = [member for member in members if member.is_sound and not member.told_of_removal]
+    requirement = _REMOVES_ALL if isinstance(step, s.RemoveContainer) else _DESTROYS_ALL
+    container = runtime.containers.get(getattr(step, "container", ""), ongoing.container)
+    return _left(check, ongoing, container, left, "on_remove", requirement) if left else ()
+
+
+def _left(
+    check: Property, ongoing: OperationInProgress, container: Container, left: list[Member], hook: str, requirement: str
+) -> Concluded:
+    """Names the operation that failed, which left them out, and the one that shows it."""
+    step, begin, end = container.failed or (ongoing.step_number, 0, 0)
+    names = ", ".join(f"'{member.lane}'" for member in left[:3])
+    return check.fail(
+        hook,
+        expected=f"each member whose body does not raise has received {hook} when {ongoing.operation} is over",
+        observed=f"{names} did not receive it",
+        at=tuple(sorted((begin, end, ongoing.call, ongoing.end.n))) if begin else (ongoing.call, ongoing.end.n),
+        step=step,
+        requirement=requirement,
+    )
+
+
+_OVER: dict[str, str] = {
+    "on_init": "R-11.2.3-05",
+    "on_connect": "R-11.2.1.3-02",
+    "on_disconnect": "R-11.2.1.3-05",
+    "on_startup": _STARTS_ALL,
+    "on_shutdown": _STOPS_ALL,
+    "on_remove": "R-11.2.1.2-06",
+}
+"""The requirement that a callback breaks which is not over when its operation has returned."""
+
+
+@property_at("ended", *_OVER.values())
+def callbacks_are_over(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
+    """An operation returns when its callbacks have returned: until then nothing is initialised, started or removed."""
+    if not ongoing.inside or not isinstance(ongoing.end, Return):
+        return ()
+    callback = ongoing.inside[0]
+    if callback.hook not in _OVER:
+        return ()
+    return check.fail(
+        callback.hook,
+        expected=f"{ongoing.operation} returns when {callback.hook} of '{lane(*callback.body)}' has returned",
+        observed="it returned before",
+        at=(callback.n, ongoing.end.n),
+        step=ongoing.step_number,
+        requirement=_OVER[callback.hook],
+    )
