@@ -12,7 +12,7 @@ from click.core import ParameterSource
 
 import ucm_cts
 from ucm_cts.harness.catalogue.documents import DocumentError
-from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.profiles import PROFILES, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.compare_command import compare
@@ -24,6 +24,7 @@ from ucm_cts.harness.cli.selftest_command import selftest
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.cli.toolchain_command import certify_toolchain, profiles_of
 from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.execution.offers import offers_of
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
@@ -31,8 +32,9 @@ from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
 from ucm_cts.harness.report.diagrams.sequence_text import failure_text, printed_text, replay_text
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean
 from ucm_cts.harness.statement.files import stated_by
-from ucm_cts.harness.statement.writing import write_statement, write_toolchain_statement
+from ucm_cts.harness.statement.writing import Wanted, write_statement, write_toolchain_statement
 from ucm_cts.harness.toolchains.commands.description import read_toolchain
+from ucm_cts.harness.toolchains.declarations import asked_of_declared
 from ucm_cts.reference_models.monitor import Monitor
 
 
@@ -159,23 +161,41 @@ def _refuse(context: click.Context, parameters: Sequence[str]) -> None:
 @options.out_file("ucm-cts-ics.toml")
 @options.toolchain_option
 @click.option("--force", is_flag=True, help="Write over a file that is there.")
+@click.option("--full", is_flag=True, help="With every value that can be stated, and what it means.")
+@click.option(
+    "--profile", type=options.Profile(PROFILES), help="Claim this profile.  [default: what the product can have]"
+)
 @click.pass_context
-def ics(context: click.Context, adapter: str, out: Path, toolchain: Path | None, force: bool) -> None:
+def ics(
+    context: click.Context,
+    adapter: str,
+    out: Path,
+    toolchain: Path | None,
+    force: bool,
+    full: bool,
+    profile: str | None,
+) -> None:
     """Write the statement of the product behind ADAPTER, or of a tool chain, for its vendor to edit.
 
-    It names the parts that can be claimed, every reading that can be declared, times and tolerances. As written it changes
-    nothing: give the edited one to 'ucm-cts run --ics'.
+    It claims what the adapter offers, and has what differs from the defaults and what the vendor must decide. Give the edited
+    one to 'ucm-cts run --ics'.
     """
     subject = adapter
+    wanted = Wanted(out, force, full, profile or "")
     if toolchain is not None:
         _refuse(context, ("adapter",))
         subject = f"--toolchain {toolchain}"
         described = read_toolchain(toolchain)
-        write_toolchain_statement(out, described, profiles_of(described), toolchain, force)
+        possible = profiles_of(described)
+        if profile and profile not in possible:
+            raise WrongUse(f"{toolchain} says how {', '.join(possible)} are done, and not '{profile}'")
+        write_toolchain_statement(wanted, described, possible, toolchain, asked_of_declared())
     else:
+        if profile in TOOLCHAIN_PROFILES:
+            raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
         with ends_like_interrupts(), Driver(locate(adapter), 0) as driver:
-            identity = driver.identity
-        write_statement(out, identity, adapter, force)
+            identity, offers = driver.identity, offers_of(driver)
+        write_statement(wanted, identity, adapter, offers)
     console = Output()
     console.say(f"{out} is written; edit it, then: ucm-cts run {subject} --ics {out}")
     options.leave(console, options.CONFORMANT)

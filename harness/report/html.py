@@ -27,6 +27,7 @@ from ucm_cts.harness.report.order import (
 from ucm_cts.harness.report.page import part, rendered
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
+from ucm_cts.harness.report.wanting import wanting
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import (
     file_name,
@@ -90,6 +91,7 @@ def to_html(
             key=lambda entry: (clause_key(entry.clause), entry.id),
         ),
         framework=framework_body(report, table) if isinstance(report, v.FrameworkReport) else None,
+        wanting=wanting(report),
         stated=stated(report.statement, readings, PARTS[report.profile]),
         shortest_first=shortest_first,
         script=script,

@@ -21,6 +21,7 @@ from ucm_cts.harness.report.order import (
     sides,
     to_fix,
 )
+from ucm_cts.harness.report.wanting import wanting
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incidents import is_unexplained
@@ -86,6 +87,7 @@ def summary(report: Report, out: Path | None = None, whole: bool = False, everyt
         lines += [Text(), *_described(result, everything)]
     if len(ignored) > most:
         lines += [Text(), Text(f"and {len(ignored) - most} more recommendations that were not followed", "dim")]
+    lines += _wanting(report)
     if everything:
         lines += _undecided(report)
     if out is not None:
@@ -100,6 +102,17 @@ def _incident(item: IncidentReport) -> Text:
     often = f" {item.occurrences} times" if item.occurrences > 1 and item.incident.kind != "untried" else ""
     detail = one_line(f"{what}{item.incident.detail}{when if during or what else ''}", 300)
     return cut(Text.assemble(("⚡ ", "magenta"), (f"{item.incident.kind}{often}", "bold magenta"), f"  {detail}"))
+
+
+def _wanting(report: Report) -> list[Text]:
+    """The lines of the vendor's statement that would let a run decide more."""
+    wanted = wanting(report)
+    if wanted is None:
+        return []
+    number = f"{wanted.requirements} inconclusive requirement{'s' if wanted.requirements > 1 else ''}"
+    head = Text.assemble((f"{SYMBOLS['inconclusive']} ", "yellow"), (f"{number} for want of a statement", "bold"))
+    lines = [Text.assemble(("  ", ""), (str(line), "bold"), f"  {times}") for line, times in wanted.lines.items()]
+    return [Text(), cut(head), *map(cut, lines), cut(Text(f"  {wanted.remedy}", "dim"))]
 
 
 def _undecided(report: Report) -> list[Text]:

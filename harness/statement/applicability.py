@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import msgspec
 
@@ -49,6 +49,40 @@ def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, st
     decisive = missing[of_tests.index(True)] if all(of_tests) else missing[of_tests.index(False)]
     said = f"{statement.source} says" if statement.source else "without a statement it holds that"
     return verdict, f"{said} {' and '.join(dict.fromkeys(_shown(need, statement) for need in decisive))}"
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of a statement: ``table`` and ``text``; ``option`` is the option that it declares, empty if it declares none."""
+
+    table: str
+    text: str
+    option: str = ""
+
+    def __str__(self) -> str:
+        return f"[{self.table}] {self.text}"
+
+
+def lines_for(requirement: Requirement, statement: Statement) -> tuple[Line, ...]:
+    """The lines that would let a run decide ``requirement``, which it does not under ``statement``; none if others decide.
+
+    Of several that would do, the first.
+    """
+    unmet = [needs for need in load_capabilities().of(requirement.id) for needs in _unmet(need, statement)]
+    lines = [_line(needs[0]) for needs in unmet]
+    if set(requirement.rules) <= CHECKS.keys() and statement.meets(_WITH_MODELS) and not statement.models:
+        lines.append(_MODELS)
+    return tuple(dict.fromkeys(lines))
+
+
+_MODELS = Line("models", 'core = ["FOLDER"]', "core-models")
+
+
+def _line(need: str) -> Line:
+    option, _, values = need.partition("=")
+    if not values:
+        return Line("capabilities", f"{need} = true")
+    return Line("readings", f'{option} = "{values.partition("|")[0]}"', option)
 
 
 def lacking_claims(statement: Statement, profile: str) -> Mapping[str, str]:

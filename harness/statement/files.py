@@ -46,12 +46,25 @@ def check_subject(statement: Statement, identity: Identity, profile: str) -> Non
     ):
         if stated and one_line(stated) != one_line(actual):
             raise WrongUse(
-                f"{statement.source} is about {what} '{one_line(stated, 80)}', and the product under test says it is '{one_line(actual, 80)}'; "
-                "correct the statement"
+                f"{_place(statement, what)} is about {what} '{one_line(stated, 80)}', and the product under test says it is "
+                f"'{one_line(actual, 80)}'; correct the statement, or leave its {what} out"
             )
     if profile not in statement.profiles:
         claimed = ", ".join(statement.profiles) or "none"
-        raise WrongUse(f"{statement.source} does not claim profile '{profile}'; it claims {claimed}")
+        raise WrongUse(
+            f"{_place(statement, 'profiles')} does not claim profile '{profile}'; it claims {claimed}; run one of these with "
+            f"--profile, or add '{profile}' to profiles"
+        )
+
+
+def _place(statement: Statement, key: str) -> str:
+    """File and line of ``key``."""
+    path = Path(statement.folder) / statement.source
+    try:
+        line = read_toml(path, LARGEST)[1].get(key)
+    except DocumentError:
+        line = None  # a statement that was made otherwise, or is gone
+    return f"{statement.source}:{line}" if line else statement.source
 
 
 def read_statement(path: Path) -> Statement:

@@ -115,7 +115,17 @@ class Acceptance:
 
 
 def _not_applicable(statement: Statement) -> Mapping[str, str]:
-    """The requirements of which nothing is asked, or no broken model, under the readings that the vendor declares, and why.
+    """The requirements of which nothing is asked, or no broken model, under the readings that the vendor declares, and why."""
+    source = f"{statement.source} says" if statement.source else "without a statement it holds that"
+    found: dict[str, str] = {}
+    for requirement, (what, unmet) in unasked(statement).items():
+        declared = ", ".join(f"{option} = {statement.readings[option]}" for option in sorted(unmet))
+        found[requirement] = f"{what}: {source} {declared}"
+    return found
+
+
+def unasked(statement: Statement) -> Mapping[str, tuple[str, frozenset[str]]]:
+    """The requirements of which nothing is asked, or no broken model: which of both, and the options that are to be declared.
 
     Where legal models are asked all the same, a refusal of one still fails the requirement. A declared reading that accepts what
     another one refuses is asked in full by its legal models.
@@ -129,16 +139,14 @@ def _not_applicable(statement: Statement) -> Mapping[str, str]:
         elif q.due == "refuse" or q.requirement not in breakable:
             unmet = {need.partition("=")[0] for need in q.under if not statement.meets(need)}
             options.setdefault(q.requirement, set()).update(unmet)
-    source = f"{statement.source} says" if statement.source else "without a statement it holds that"
-    found: dict[str, str] = {}
+    found: dict[str, tuple[str, frozenset[str]]] = {}
     for requirement, unmet in options.items():
         accepted = asked.get((requirement, "accept"), [])
         never_broken = accepted and requirement not in breakable
         if (requirement, "refuse") in asked or never_broken or _decided_by(accepted, unmet):
             continue
         what = "accepted side only, no broken model is ever asked" if accepted else "it is never asked"
-        declared = ", ".join(f"{option} = {statement.readings[option]}" for option in sorted(unmet))
-        found[requirement] = f"{what}: {source} {declared}"
+        found[requirement] = what, frozenset(unmet)
     return found
 
 

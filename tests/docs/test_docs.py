@@ -292,7 +292,7 @@ def test_statement(here: Path) -> None:
     assert (outcome.err, report_of(here / "out")["statement"]["source"]) == ("", "my-ics.toml")
     assert "fail" not in {r["verdict"] for r in report_of(here / "out")["requirements"]}
     assert ucm_cts(*shlex.split(writes)[1:]).status == 2, "it is there already"
-    assert ucm_cts(*shlex.split(writes)[1:], "--force").status == 0
+    assert ucm_cts(*shlex.split(writes)[1:], "--force", "--full").status == 0
     keys = {key for row in column("docs/statement.md", r"(`.+?`) \| .+ \| .+") for key in re.findall(r"[\w]+", row)}
     assert keys == tomllib.loads((here / "my-ics.toml").read_text()).keys()
 

@@ -6,10 +6,16 @@ import os
 import shutil
 import signal
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
-from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
+import msgspec
+
+from ucm_cts.adapters.contract import declarations as d
+from ucm_cts.adapters.contract.adapter import NotOffered
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
 from ucm_cts.adapters.mutants.python import MUTANTS
 from ucm_cts.adapters.mutants.python.registry import Base, bind
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
@@ -57,6 +63,90 @@ class Misspelled(ReferenceAdapter):
     """Declares a wrong pattern for the names of port elements."""
 
     port_element_name = "{gate}"
+
+
+class HidesItsLog(ReferenceAdapter):
+    """Offers no test access to the trace."""
+
+    def read_log(self, manager: object) -> Sequence[tuple[str, str]]:
+        raise NotOffered
+
+
+class Unbreakable(ReferenceAdapter):
+    """Offers no faults for tests."""
+
+    def break_link(self, link: object, where: str) -> None:
+        raise NotOffered
+
+
+class _Ignoring(ReferenceAdapter):
+    """Its framework never sees some policies."""
+
+    ignored: frozenset[str]
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        return super().create_runtime(
+            [
+                replace(one, policies=tuple(p for p in one.policies if p.definition not in self.ignored))
+                for one in implementations
+            ]
+        )
+
+
+class IgnoresClockAndTrace(_Ignoring):
+    """Gives bodies neither clock nor trace."""
+
+    ignored = frozenset((d.CLOCK, d.COMPONENT_TRACE))
+
+
+class NeverRunsByItself(_Ignoring):
+    """Executes no component by itself."""
+
+    ignored = frozenset((d.SELF_EXECUTING,))
+
+
+class _Refusing(ReferenceAdapter):
+    """Refuses components with some policies."""
+
+    def is_refused(self, policy: d.Policy) -> bool:
+        raise NotImplementedError
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        self._refused = {one.name for one in implementations if any(map(self.is_refused, one.policies))}
+        return super().create_runtime(implementations)
+
+    def add_component(self, container: Any, implementation: str, attributes: Mapping[str, str]) -> int:
+        if implementation in self._refused:
+            raise UcmError
+        return super().add_component(container, implementation, attributes)
+
+
+class RefusesPortTraces(_Refusing):
+    """Traces no ports."""
+
+    def is_refused(self, policy: d.Policy) -> bool:
+        return policy.definition == d.PORT_TRACE
+
+
+class ActiveAsAWhole(_Refusing):
+    """Takes the policy of active components for whole components only."""
+
+    def is_refused(self, policy: d.Policy) -> bool:
+        return policy.definition == d.ACTIVE and policy.port is not None
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        every_port = [
+            replace(one, policies=[p for each in one.policies for p in self._on_ports(each, one)])
+            for one in implementations
+        ]
+        runtime = super().create_runtime(every_port)
+        self._refused = {one.name for one in implementations if any(map(self.is_refused, one.policies))}
+        return runtime
+
+    def _on_ports(self, policy: d.Policy, of: Implementation) -> list[d.Policy]:
+        if policy.definition != d.ACTIVE or policy.port is not None:
+            return [policy]
+        return [msgspec.structs.replace(policy, port=port) for port in of.provides]
 
 
 class _Crashing(Base):

@@ -16,8 +16,10 @@ import pytest
 from command_line import Outcome, ucm_cts, within
 from files import SUPPORT
 
+from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.acceptance import Answer, judge
 from ucm_cts.harness.toolchains.corpus.selection import Question, differing_lines
+from ucm_cts.harness.toolchains.declarations import asked_of_declared
 
 pytestmark = pytest.mark.slow
 
@@ -183,6 +185,14 @@ def test_a_statement_claims_the_tasks_of_the_tool_chain(here: Path) -> None:
     stated = tomllib.loads((here / "ics.toml").read_text())
     assert stated["profiles"] == ["pim"]
     assert not [option for option in stated["readings"] if option.startswith(("idl-", "cpp-"))]
+    asked = asked_of_declared()
+    assert {option: default_statement().readings[option] for option in stated["readings"]} == stated["readings"]
+    assert stated["readings"].keys() <= asked.keys()
+    assert "R-9.5.3.5-03" in asked["abstract-actual-types"]
+    assert ucm_cts("ics", "--toolchain", toolchain, "--out", "ics.toml", "--full", "--force").status == 0
+    assert len(tomllib.loads((here / "ics.toml").read_text())["readings"]) > len(stated["readings"])
+    outcome = ucm_cts("ics", "--toolchain", toolchain, "--out", "ics.toml", "--profile", "idl", "--force")
+    assert (outcome.status, outcome.err.count("\n")) == (2, 1)
     (here / "none.toml").write_text('product = "p"\nversion = "1"\n')
     outcome = ucm_cts("ics", "--toolchain", "none.toml", "--out", "other.toml")
     assert (outcome.status, outcome.err.count("\n")) == (2, 1)

@@ -1,0 +1,50 @@
+"""What an adapter offers besides containers: the parts of 10.1, and operations for tests. Found out with ``suite/offers.yaml``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
+from ucm_cts.harness.catalogue.requirements import SUITE
+from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.statement.claims import Offer
+
+OFFERS = SUITE / "offers.yaml"
+
+
+def offers_of(driver: Driver) -> Mapping[str, Offer]:
+    """What the adapter behind ``driver`` offers, by capability and by option. Raises ``WrongUse`` and ``HostUnavailable``."""
+    scripts = read_scripts(OFFERS)
+    offers: dict[str, Offer] = {}
+    answers = driver.run(((script.scenario, to_scenario(script)) for script in scripts), insist=True)
+    for script, answer in zip(scripts, answers, strict=True):
+        known = offers.get(script.scenario)
+        if known is None or known.lacking:
+            lacking = _lacking(answer)
+            declared = dict(reading.split("=") for reading in script.under)
+            offers[script.scenario] = known if known is not None and lacking else Offer(lacking, declared)
+    return offers
+
+
+def _lacking(answer: Answer) -> str:
+    """How ``answer`` shows that the adapter does not offer what its scenario asks for; empty if it offers it."""
+    if answer.incident is not None:
+        return one_line(f"{answer.incident.kind}: {answer.incident.detail}", 160)
+    asked = {event.body for event in answer.trace if isinstance(event, t.Request)}
+    for event in answer.trace:
+        if isinstance(event, t.Skip | t.Raise | t.Timeout):
+            operation = s.operation(answer.scenario.steps[event.step])
+            match event:
+                case t.Skip():
+                    return f"{operation} is not offered"
+                case t.Timeout():
+                    return f"{operation} waits in vain"
+                case t.Raise():
+                    return f"{operation} raises {event.error}"
+        if isinstance(event, t.Reply) and event.failed:
+            return "calls of it raise"
+    calls = [hook for part in answer.scenario.components.values() for hook in part.plan if hook == "exchange"]
+    return "the body has nothing that it could call" if calls and not asked else ""
