@@ -28,7 +28,7 @@ from ucm_cts.harness.results.incident_causes import IncidentCause, cause_of_inci
 from ucm_cts.harness.results.incidents import is_waiting
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Cause, cause_of
-from ucm_cts.harness.statement.applicability import fitting
+from ucm_cts.harness.statement.applicability import fitting, with_policies
 from ucm_cts.reference_models.verdicts import Verdicts
 
 DRAWN = "explored"
@@ -161,9 +161,9 @@ class Exploration:
 
     def _draw(self, known: Sequence[Scenario]) -> Scenario:
         choose = self._random.choice
-        if known and self._random.random() < CHANGED:
-            return changed(choose(known), choose)
-        return Writer(choose).scenario()
+        vary = known and self._random.random() < CHANGED
+        drawn = changed(choose(known), choose) if vary else Writer(choose).scenario()
+        return with_policies(drawn, self._statement)
 
     def _draw_core(self) -> Scenario:
         """A scenario that needs only what the vendor claims."""

@@ -16,6 +16,7 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.statement import HOOKS, IMPOSSIBLE, Statement, default_statement
 from ucm_cts.harness.results.values import Verdict
+from ucm_cts.reference_models.model.executions import protection_of
 
 Cases = tuple[tuple[str, Scenario], ...]
 
@@ -104,6 +105,8 @@ def _is_test_operation(need: str, statement: Statement) -> bool:
     return option in HOOKS and statement.readings[option] != IMPOSSIBLE
 
 
+_MISSING_POLICY = "R-10.1.3-02"
+_REFUSED_WITHOUT = "missing-execution-policy=refuse"
 _ON_COMPONENTS = "protected-active-applicability=onComponent"
 _WITH_MODELS = "core-models=shipped"
 
@@ -132,17 +135,37 @@ def _all_purposes(statement: Statement, profile: str, extra_states: int = 0) -> 
 
 def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
     draw = purpose.draw
-    fitted = draw and (lambda seed, readings: fitting(draw(seed, readings), statement))
-    return replace(purpose, scenarios=fitting(purpose.scenarios, statement), draw=fitted)
+    as_written = _MISSING_POLICY in purpose.requirements
+    fitted = draw and (lambda seed, readings: fitting(draw(seed, readings), statement, as_written))
+    return replace(purpose, scenarios=fitting(purpose.scenarios, statement, as_written), draw=fitted)
 
 
-def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement) -> Cases:
-    """The ``cases`` that need only claimed parts, with the declared patience."""
+def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement, as_written: bool = False) -> Cases:
+    """The ``cases`` that need only claimed parts, with the declared patience. Components get the execution policy that the framework
+    insists on, unless they are taken ``as_written``.
+    """
     return tuple(
-        (name, _fitted(scenario, statement))
+        (name, _fitted(scenario if as_written else with_policies(scenario, statement), statement))
         for name, scenario in cases
         if all(map(statement.meets, needs_of(scenario)))
     )
+
+
+def with_policies(scenario: Scenario, statement: Statement) -> Scenario:
+    """``scenario``; if the framework refuses components without execution policy (one-policy-count), each that has none gets the one that
+    changes least: of unprotected passive components, or else of protected passive ones, whichever is claimed.
+    """
+    passive = [kind for kind in (s.UNPROTECTED_PASSIVE, s.PROTECTED_PASSIVE) if statement.meets(kind)]
+    if not passive or not statement.meets(_REFUSED_WITHOUT):
+        return scenario
+    given = {name: _with_policy(declaration, passive[0]) for name, declaration in scenario.components.items()}
+    return msgspec.structs.replace(scenario, components=given)
+
+
+def _with_policy(declaration: Declaration, definition: str) -> Declaration:
+    if protection_of(declaration):
+        return declaration
+    return msgspec.structs.replace(declaration, policies=(s.Policy(definition), *declaration.policies))
 
 
 def _fitted(scenario: Scenario, statement: Statement) -> Scenario:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.reference_models.model.executions import has_unknown_policy, is_contradictory
+from ucm_cts.reference_models.model.executions import has_unknown_policy, is_contradictory, is_plainest, without_policy
 from ucm_cts.reference_models.model.expected_callbacks import Listener
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 from ucm_cts.reference_models.model.links import differ, is_misfit
@@ -104,8 +104,10 @@ class RowSelection:
             declaration is not None
             and (is_contradictory(declaration) or has_several_clocks(declaration) or has_unknown_policy(declaration))
         )
-        if declaration is not None and declaration.policies:
-            ongoing.forgiving = True  # whether the policy is supported is policy_supported's matter
+        if declaration is not None and not is_plainest(declaration, runtime.scenario, runtime.ics):
+            ongoing.forgiving = (
+                True  # whether it may be refused is the matter of policy_supported and execution_policy_given
+            )
         self._role(ongoing, None, "absent", condition)
 
     def _remove(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.RemoveComponent) -> None:
@@ -231,6 +233,8 @@ class RowSelection:
         connections = (c for m in reached for c in m.connections if c.live is not False)
         if runtime.interactions.improper(None if cascades else container) or any(map(is_misfit, connections)):
             ongoing.forgiving = True
+        elif without_policy(runtime, container):
+            ongoing.forgiving = True  # whether it may be refused is execution_policy_given's matter
         ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")

@@ -30,17 +30,18 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
     option = "missing-execution-policy"
     declarations = runtime.scenario.components
-    if not any(ex.protection_of(declaration) for declaration in declarations.values()):
-        return ()  # a scenario of profile container, which knows no policies
+    if not ex.knows_policies(runtime.scenario):
+        return ()
     if isinstance(ongoing.step, s.AddComponent):
         declaration = declarations.get(ongoing.step.component)
         is_open = declaration is not None and not ex.protection_of(declaration) and not declaration.plan
-        if is_open and isinstance(ongoing.end, Raise):
+        if is_open and ongoing.container.started is False and isinstance(ongoing.end, Raise):
             return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component)
         return ()
-    without = [m for m in ongoing.container.live_members() if not ex.protection_of(m.declaration)]
-    if without and ongoing.judged and isinstance(ongoing.end, Return):
-        return _treated(check, runtime, ongoing, option, "default", without[0].lane)
+    without = ex.without_policy(runtime, ongoing.container)
+    if without and ongoing.judged:
+        reading = "default" if isinstance(ongoing.end, Return) else "refuse"
+        return _treated(check, runtime, ongoing, option, reading, without[0].lane)
     return ()
 
 

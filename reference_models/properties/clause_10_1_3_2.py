@@ -198,7 +198,8 @@ def policy_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
     """A component with an execution policy is added and started like any other."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        if isinstance(ongoing.end, Raise) and declaration is not None and ongoing.container.started is False:
+        may_be_added = ongoing.container.started is False and not ongoing.container.removed
+        if isinstance(ongoing.end, Raise) and declaration is not None and may_be_added:
             yield from _refused(check, declaration, ongoing.end)
         return
     if not isinstance(ongoing.end, Return) or not ongoing.judged:

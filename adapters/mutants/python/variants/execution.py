@@ -22,7 +22,7 @@ from ucm_cts.adapters.contract.scenario import (
     Policy,
 )
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
-from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
+from ucm_cts.adapters.mutants.python.registry import CONTAINER, CORE, POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.execution import Executor, Trigger
 from ucm_cts.adapters.reference.python.members import Failures, Member
 from ucm_cts.adapters.reference.python.policies import ProtectedElement
@@ -176,6 +176,36 @@ def refuses_two_active_ports(_self: Base, implementation: Implementation) -> boo
 @variant_of(*POLICIES, readings={"second-active-policy": "allow", "run-trigger": "repeated"})
 class says_what_it_does(Base):
     """The reference framework, with its execution options declared."""
+
+
+@variant_of(*POLICIES, *CONTAINER, *CORE, readings={"missing-execution-policy": "refuse"})
+class refuses_components_without_policy(Base):
+    """A component without execution policy is refused when it is added."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if not any(policy.definition in _EXECUTION for policy in implementation.policies):
+            raise UcmError(f"{implementation.name!r} has no execution policy")
+        super()._check_policies(implementation)
+
+
+@variant_of(*POLICIES, readings={"missing-execution-policy": "refuse"})
+class refuses_to_start_components_without_policy(Base):
+    """A component without execution policy is added; its container does not start."""
+
+    def _check_startable(self) -> None:
+        for member in self.members.values():
+            if not member.execution.definition:
+                raise UcmError(f"{member.implementation.name!r} has no execution policy")
+        super()._check_startable()
+
+
+@variant_of(*POLICIES, readings={"missing-execution-policy": "default"})
+class gives_a_policy_to_those_without(Base):
+    """A component without execution policy is executed as a protected passive component."""
+
+    def _initialise(self, member: Member) -> None:
+        member.execution.definition = member.execution.definition or PROTECTED_PASSIVE
+        super()._initialise(member)
 
 
 @variant_of(*POLICIES, readings={"protected-active-applicability": "onComponent"})
