@@ -48,6 +48,15 @@ _SHOWN = 80
 _FORK_SECONDS = 2.0
 """How long the fork of a host may take, at least."""
 
+SECONDS_A_STEP = 0.02
+"""A long scenario gets so much time more for each step after the first ``LONG``: some have hundreds."""
+
+LONG = 50
+"""The number of steps that fit into the usual time."""
+
+LONGEST = 4
+"""A run that sends its events as they happen may take so many times what it is allowed, as long as they come."""
+
 
 class Answer(msgspec.Struct, frozen=True):
     """The result of the ``Run`` message with ``id``.
@@ -235,7 +244,8 @@ class Hosts:
         return Answer(run.id, reply, tuple(happened), printed=printed)
 
     def _receive_reply(self, host: Host, run: m.Run, happened: list[Event]) -> m.Traced | m.Refused:
-        deadline = Deadline.after(self.limits.seconds + waits(run.scenario))
+        allowed = self.allowed(run.scenario)
+        deadline, last = Deadline.after(allowed), Deadline.after(LONGEST * allowed)
         while True:
             message = _decode(host, host.receive(deadline))
             if isinstance(message, m.Welcome) or (isinstance(message, m.Happened) and not run.stream):
@@ -245,6 +255,11 @@ class Hosts:
             if not isinstance(message, m.Happened):
                 return message
             happened.append(message.event)
+            deadline = min(Deadline.after(allowed), last, key=lambda one: one.end)  # it is slow, and goes on
+
+    def allowed(self, scenario: s.Scenario) -> float:
+        """How many seconds ``scenario`` may take."""
+        return self.limits.seconds + waits(scenario) + SECONDS_A_STEP * max(0, len(scenario.steps) - LONG)
 
     def discard(self) -> None:
         """End the host, if there is one; the next run gets a fresh one."""

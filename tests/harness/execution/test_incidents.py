@@ -12,7 +12,7 @@ from command_line import report_of, ucm_cts, within
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.trace import Call, Skip
+from ucm_cts.adapters.contract.trace import Call, Return, Skip
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
@@ -48,6 +48,16 @@ def test_slow_framework_is_never_taken_for_one_that_hangs() -> None:
     limits = Limits(seconds=2)
     scenarios = [REMOVES_NOTHING, STARTS, REMOVES_NOTHING, REMOVES, REMOVES_NOTHING, STARTS]
     assert kinds("IsSlow", limits, *scenarios) == ["hang", "", "hang", "", "hang", ""]
+
+
+def test_framework_that_is_slow_and_goes_on_does_not_hang() -> None:
+    """It takes longer than a scenario may, and another run shows that it goes on."""
+    boxes = [s.CreateContainer(f"box{n}") for n in range(4)]
+    slow = Scenario({}, (*boxes, *(s.Start(f"box{n}") for n in range(4))))
+    with Driver(locate("hostile.failing:IsSlow"), 1, Limits(seconds=0.8)) as driver:
+        (answer,) = driver.run([("slow", slow)])
+        assert answer.incident is None
+        assert [event for event in answer.trace if isinstance(event, Return)][-1].step == len(slow.steps) - 1
 
 
 def test_long_hangs_are_left_out_and_all_else_is_tried() -> None:
