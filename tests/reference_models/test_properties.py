@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from performing import answer
 
-from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.mutants.python.registry import CONTAINER, POLICIES, mutants_of
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.monitor import Monitor
 from ucm_cts.reference_models.properties import table
@@ -36,12 +36,10 @@ def traces() -> list[tuple[Scenario, Trace]]:
     for clauses, profile in ((CONTAINER, "container"), (POLICIES, "core")):
         purposes = [p for p in load_purposes(profile) if p.clause.startswith(clauses)]
         for name in chosen.sample(sorted(mutants_of(clauses)), MUTANTS):
-            adapter = mutants_of(clauses)[name].adapter
-            for purpose in chosen.sample(purposes, min(SCENARIOS, len(purposes))):
-                _, scenario = purpose.scenarios[0]
-                reply = answer(scenario, adapter)
-                if isinstance(reply, Traced) and not reply.stuck:
-                    found.append((scenario, reply.events))
+            sample = chosen.sample(purposes, min(SCENARIOS, len(purposes)))
+            with Driver(locate(f"ucm_cts.adapters.mutants.python:{name}"), 1, Limits(seconds=1)) as driver:
+                answers = driver.run(purpose.scenarios[0] for purpose in sample)
+                found += [(a.disguised, a.trace) for a in answers if a.incident is None]
     return found
 
 
