@@ -24,7 +24,7 @@ from ucm_cts.harness.cli.selftest_command import selftest
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.cli.toolchain_command import certify_toolchain, profiles_of
 from ucm_cts.harness.execution.driver import Driver, Limits
-from ucm_cts.harness.execution.offers import offers_of
+from ucm_cts.harness.execution.offers import LIMITS, offers_of
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
@@ -193,7 +193,7 @@ def ics(
     else:
         if profile in TOOLCHAIN_PROFILES:
             raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
-        with ends_like_interrupts(), Driver(locate(adapter), 0) as driver:
+        with ends_like_interrupts(), Driver(locate(adapter), 0, LIMITS) as driver:
             identity, offers = driver.identity, offers_of(driver)
         write_statement(wanted, identity, adapter, offers)
     console = Output()
@@ -202,14 +202,15 @@ def ics(
 
 
 @cli.command()
-@click.argument("requirement", default="", required=False)
-def explain(requirement: str) -> None:
-    """Show REQUIREMENT: clause, meaning, interpretation, scenarios. Without it, list the catalogue."""
+@click.argument("topic", default="", required=False)
+def explain(topic: str) -> None:
+    """Explain TOPIC: a requirement (R-11.2.2.1-13), a clause (10.1.3) or an operation (remove_component, on_disconnect).
+
+    A requirement with its clause, level, meaning, interpretation and scenarios; a clause or an operation with the requirements
+    that concern it. Without TOPIC, list the catalogue.
+    """
     console = Output()
-    if not requirement:
-        console.print(overview())
-    else:
-        console.print(explanation(requirement))
+    console.print(explanation(topic) if topic else overview(), soft_wrap=not console.is_terminal)
     options.leave(console, options.CONFORMANT)
 
 

@@ -1,11 +1,10 @@
-"""The output of ``ucm-cts explain``: one requirement, or the whole catalogue."""
+"""The output of ``ucm-cts explain``: one requirement, or the requirements of a clause, of an operation, or all."""
 
 from __future__ import annotations
 
-import difflib
+from collections.abc import Iterable
 
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
@@ -17,8 +16,8 @@ from ucm_cts.harness.catalogue.requirements import (
     load_interpretations,
     load_requirements,
 )
+from ucm_cts.harness.cli.explained import CELLS, Topic, cells_of, found
 from ucm_cts.harness.execution.leftovers import HOST_CHECKS
-from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.toolchains.corpus.selection import questions
@@ -27,8 +26,12 @@ from ucm_cts.reference_models.properties.table import PROPERTIES
 
 
 def explanation(identifier: str) -> RenderableType:
-    """Everything about the requirement ``identifier``. Raises ``WrongUse`` if there is none."""
-    requirement = _find(identifier)
+    """Everything about the requirement, clause or operation ``identifier``. Raises ``WrongUse`` if there is none."""
+    topic = found(identifier)
+    return _explained(topic) if isinstance(topic, Requirement) else _listed(topic)
+
+
+def _explained(requirement: Requirement) -> RenderableType:
     interpretations = {i.id: i for i in load_interpretations()}
     lines: list[RenderableType] = [
         Text(f"{requirement.id}  {requirement.title}", style="bold"),
@@ -58,10 +61,13 @@ def explanation(identifier: str) -> RenderableType:
         doc = checks[rule] if rule in checks else (PROPERTIES[rule].evaluate.__doc__ or "").strip().splitlines()[0]
         lines += _paragraph(f"Checked by {rule}: ", doc)
     offered = load_purposes(requirement.profile) if requirement.profile in FRAMEWORK_PROFILES else ()
-    purposes = [p for p in offered if requirement.id in p.requirements]
+    purposes = [p for p in offered if requirement.id in p.requirements and not p.id.startswith(CELLS)]
     if purposes:
         scenarios = [f"{p.id}: {p.text} ({_count(len(p.scenarios))})" for p in purposes]
         lines += _paragraph("Scenarios that exercise it:", "", *scenarios)
+    cells = cells_of(requirement.id) if offered else []
+    if cells:
+        lines += _paragraph("Cells of provocation: ", "what a body does where it is entered, and what follows", *cells)
     cases = [q for q in questions() if q.requirement == requirement.id] if requirement.profile == "pim" else []
     if cases:
         models = [f"{q.due} {q.name}{f': {q.because}' if q.because else ''}" for q in cases]
@@ -74,30 +80,33 @@ def _paragraph(label: str, text: str, *lines: str) -> list[Text]:
     return [Text(), Text(label, style="bold") + Text(text), *(Text(f"  {line}") for line in lines)]
 
 
+def _listed(topic: Topic) -> RenderableType:
+    lines: list[RenderableType] = [Text(topic.heading, style="bold"), *_rows(topic.requirements)]
+    if topic.purposes:
+        lines += _paragraph("Scenarios that concern it:", "", *topic.purposes)
+    return Group(*lines)
+
+
 def overview() -> RenderableType:
     """The whole catalogue, a line a requirement."""
-    table = Table(box=None, pad_edge=False)
-    for column in ("requirement", "clause", "level", "title"):
-        table.add_column(column)
-    for r in load_requirements():
+    return Group(*_rows(load_requirements()))
+
+
+def _rows(requirements: Iterable[Requirement]) -> list[Text]:
+    """A line for each: id, clause, level and title, below a line that says so."""
+    rows = [("requirement", "clause", "level", "title")]
+    for r in requirements:
         remark = " (not testable)" if r.untestable else " (not checked yet)" if r.pending else ""
-        table.add_row(r.id, r.clause, r.force, r.title + remark)
-    return table
+        rows.append((r.id, r.clause, r.force, r.title + remark))
+    widths = [max(len(row[column]) for row in rows) for column in range(3)]
+    lines = [Text("  ".join((*map(str.ljust, row, widths), row[-1]))) for row in rows]
+    lines[0].stylize("bold")
+    return lines
 
 
 def _needed(need: Need) -> str:
     all_of, one_of = ", ".join(need.needs), " or ".join(need.one_of)
     return (", ".join(filter(None, (all_of, one_of)))).replace("=", " = ")
-
-
-def _find(identifier: str) -> Requirement:
-    by_id = {r.id.lower(): r for r in load_requirements()}
-    found = by_id.get(identifier.lower()) or by_id.get(f"r-{identifier.lower()}")
-    if found is None:
-        near = difflib.get_close_matches(identifier.lower(), by_id, n=3, cutoff=0.4)
-        hint = f"; near it: {', '.join(by_id[n].id for n in near)}" if near else ""
-        raise WrongUse(f"no requirement '{identifier}'{hint}; 'ucm-cts explain' lists all")
-    return found
 
 
 def _count(number: int) -> str:

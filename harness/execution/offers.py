@@ -7,10 +7,13 @@ from collections.abc import Mapping
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.harness.catalogue.requirements import SUITE
-from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.driver import Answer, Driver, Limits
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.statement.claims import Offer
+
+LIMITS = Limits(seconds=3, incident_seconds=10)
+"""Of asking: a framework that crashes or hangs offers little."""
 
 OFFERS = SUITE / "offers.yaml"
 
@@ -19,18 +22,22 @@ def offers_of(driver: Driver) -> Mapping[str, Offer]:
     """What the adapter behind ``driver`` offers, by capability and by option. Raises ``WrongUse`` and ``HostUnavailable``."""
     scripts = read_scripts(OFFERS)
     offers: dict[str, Offer] = {}
-    answers = driver.run(((script.scenario, to_scenario(script)) for script in scripts), insist=True)
+    answers = driver.run((script.scenario, to_scenario(script)) for script in scripts)
     for script, answer in zip(scripts, answers, strict=True):
         known = offers.get(script.scenario)
         if known is None or known.lacking:
-            lacking = _lacking(answer)
+            lacking = _lacking(answer, offers)
             declared = dict(reading.split("=") for reading in script.under)
             offers[script.scenario] = known if known is not None and lacking else Offer(lacking, declared)
     return offers
 
 
-def _lacking(answer: Answer) -> str:
-    """How ``answer`` shows that the adapter does not offer what its scenario asks for; empty if it offers it."""
+def _lacking(answer: Answer, offers: Mapping[str, Offer]) -> str:
+    """How ``answer`` shows that the adapter does not offer what its scenario asks for, or uses of what ``offers`` has not; empty if it does."""
+    if answer.incident is not None and answer.incident.kind == "untried":
+        links = {step.connector for step in answer.scenario.steps if isinstance(step, s.Link)}
+        needed = [connector for connector in links if connector in offers and offers[connector].lacking]
+        return f"it needs {needed[0]}" if needed else "not tried after other crashes and hangs"
     if answer.incident is not None:
         return one_line(f"{answer.incident.kind}: {answer.incident.detail}", 160)
     asked = {event.body for event in answer.trace if isinstance(event, t.Request)}
@@ -41,10 +48,10 @@ def _lacking(answer: Answer) -> str:
                 case t.Skip():
                     return f"{operation} is not offered"
                 case t.Timeout():
-                    return f"{operation} waits in vain"
+                    return "no component is executed"
                 case t.Raise():
                     return f"{operation} raises {event.error}"
         if isinstance(event, t.Reply) and event.failed:
             return "calls of it raise"
     calls = [hook for part in answer.scenario.components.values() for hook in part.plan if hook == "exchange"]
-    return "the body has nothing that it could call" if calls and not asked else ""
+    return "components do not get its port element" if calls and not asked else ""

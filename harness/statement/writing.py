@@ -163,14 +163,21 @@ def to_short_toml(
 def _remarks(statement: Statement, missing: Mapping[str, str], family: Collection[str]) -> list[str]:
     """What the adapter does not offer, and what that means for the claims."""
     names = {capability.id for capability in load_capabilities().capabilities}
-    parts = [f"{name} ({why})" for name, why in missing.items() if name in names]
-    hooks = [f"{name} ({why})" for name, why in missing.items() if name in HOOKS]
+    parts = _by_reason({name: why for name, why in missing.items() if name in names})
+    hooks = _by_reason({name: why for name, why in missing.items() if name in HOOKS})
     remarks = []
     if parts and "core" in family and "core" not in statement.profiles:
-        remarks.append(f"core is not claimed, because the adapter does not offer {', '.join(parts)}.")
+        remarks.append(f"core is not claimed, because the adapter does not show that it offers {parts}.")
     if hooks and "core" in statement.profiles:
-        remarks.append(f"The adapter does not offer these operations for tests: {', '.join(hooks)}.")
+        remarks.append(f"The adapter does not offer these operations for tests: {hooks}.")
     return remarks
+
+
+def _by_reason(missing: Mapping[str, str]) -> str:
+    names: dict[str, list[str]] = {}
+    for name, why in missing.items():
+        names.setdefault(why, []).append(name)
+    return "; ".join(f"{', '.join(some)} ({why})" for why, some in names.items())
 
 
 def _ids(requirements: Collection[str]) -> str:

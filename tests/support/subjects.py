@@ -149,6 +149,14 @@ class ActiveAsAWhole(_Refusing):
         return [msgspec.structs.replace(policy, port=port) for port in of.provides]
 
 
+class Dying(ReferenceAdapter):
+    """Dies by a signal when a component is added."""
+
+    def add_component(self, container: Any, implementation: str, attributes: Mapping[str, str]) -> int:
+        os.kill(os.getpid(), signal.SIGSEGV)
+        return super().add_component(container, implementation, attributes)
+
+
 class _Crashing(Base):
     """Dies by a signal when a container that has members is started a second time."""
 

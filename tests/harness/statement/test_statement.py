@@ -489,8 +489,18 @@ def test_what_an_adapter_offers_is_found_out(lacks: str, of: set[str]) -> None:
         offers = offers_of(driver)
     assert offers.keys() == {*PARTS, *HOOKS}
     assert {name for name, offer in offers.items() if offer.lacking} == of
+    assert not [offer for offer in offers.values() if "not tried" in offer.lacking]
     declared = claimed(default_statement(), offers).readings["protected-active-applicability"]
     assert declared == ("onComponent" if lacks.endswith("AsAWhole") else "onPort")
+
+
+def test_an_adapter_that_crashes_gets_a_statement_that_says_so(here: Path) -> None:
+    outcome = ucm_cts("ics", "subjects:Dying")
+    assert (outcome.status, outcome.err) == (0, "")
+    text = " ".join((here / "ucm-cts-ics.toml").read_text().replace("\n#", "").split())
+    assert 'profiles = ["container"]' in text
+    assert "does not show that it offers" in text
+    assert "crash: SIGSEGV" in text
 
 
 def test_lines_for_want_of_which_a_run_is_inconclusive_are_named(here: Path) -> None:
