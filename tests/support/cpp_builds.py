@@ -57,6 +57,7 @@ class Rude : public ucm_cts::Adapter {
         if (what == "throw int") throw 42;
         if (what == "throw long") throw std::length_error(std::string(300, 'x') + "\\xff");
         if (what == "throw text") throw ucm_cts::NotFound("\\"quoted\\" \\xc3\\xa4 \\xff");
+        is_flooding_ = what == "many";
         return 2147483647;
     }
     void remove_component(const Handle&, ucm_cts::Id id) override { throw ucm_cts::BadParameter(std::to_string(id)); }
@@ -69,10 +70,17 @@ class Rude : public ucm_cts::Adapter {
                 const auto execution = one.create()->get_policy_element(policy.definition, "self-execution_api");
                 if (execution) execution->run();
             }
+            if (one.name == "flooded") {
+                const auto body = one.create();
+                body->set_container_interface(std::make_shared<Flooding>());
+                body->on_startup(std::vector<ucm_cts::PortConnection>(10001));
+            }
         }
     }
     void stop(const Handle&) override {}
-    std::vector<ucm_cts::Id> get_components(const Handle&) override { return {2147483646}; }
+    std::vector<ucm_cts::Id> get_components(const Handle&) override {
+        return std::vector<ucm_cts::Id>(is_flooding_ ? 10001 : 1, 2147483646);
+    }
     void advance(const Handle&, std::int32_t ms) override { throw ucm_cts::BadParameter(std::to_string(ms)); }
     Handle create_container(const Handle&) override { return nullptr; }
     void remove_container(const Handle&, const Handle&) override {}
@@ -81,7 +89,12 @@ class Rude : public ucm_cts::Adapter {
     __attribute__((noinline)) static void crash_here() { *static_cast<volatile int*>(nullptr) = 1; }
 
   private:
+    struct Flooding : ucm_cts::ContainerInterface {
+        std::vector<ucm_cts::Id> get_components() override { return std::vector<ucm_cts::Id>(10001); }
+    };
+
     std::vector<ucm_cts::Implementation> all_;
+    bool is_flooding_ = false;
 };
 
 UCM_CTS_ADAPTER(Rude, "rude", "0");

@@ -19,11 +19,15 @@ from performing import line_of
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.adapter import Adapter
+from ucm_cts.adapters.contract.container_calls import AddComponent, GetComponents
 from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.contract.programming_model import (
     BadParameter,
+    ContainerInterface,
+    FragmentObject,
     Implementation,
     NotFound,
+    PortConnection,
     PortElementObject,
     UcmError,
 )
@@ -57,8 +61,17 @@ FOLDER = Path(m.__file__).parents[2] / "suite" / "host_conformance"
 CASES = [case for path in sorted(FOLDER.glob("*.yaml")) for case in read(path, list[Case])]
 
 
+class Flooding(ContainerInterface):
+    """Has more components than any scenario makes."""
+
+    def get_components(self) -> Sequence[int]:
+        return range(10_001)
+
+
 class RudeAdapter(Adapter):
     """Misbehaves as the name of the component to add says, like the adapters of that name in C++ and Java."""
+
+    is_flooding = False
 
     def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
         self.implementations = implementations
@@ -74,6 +87,7 @@ class RudeAdapter(Adapter):
             raise NotFound("text")
         if implementation == "throw long":
             raise OSError("x" * 300)
+        self.is_flooding = implementation == "many"
         return 2**31 - 1
 
     def remove_component(self, container: Any, comp_instance: int) -> None:
@@ -94,11 +108,15 @@ class RudeAdapter(Adapter):
                 element = body.get_policy_element(policy.definition, SELF_EXECUTION_API)
                 if element is not None:
                     element.run()
+            if one.name == "flooded":
+                assert isinstance(body, FragmentObject)
+                body.set_container_interface(Flooding())
+                body.on_startup([PortConnection("out", ())] * 10_001)
 
     def stop(self, container: Any) -> None: ...
 
     def get_components(self, container: Any) -> Sequence[int]:
-        return [2**31 - 2]
+        return [2**31 - 2] * (10_001 if self.is_flooding else 1)
 
     def create_container(self, manager: Any) -> Any:
         return "sub"
@@ -162,3 +180,24 @@ def test_java(case: Case, java: JavaBuilds) -> None:
     (answer,), _, status = talk(java.program(f"{case.framework.capitalize()}Adapter"), m.Run(1, case.scenario))
     assert status == 0
     check(case, answer)
+
+
+MANY = m.Run(1, Scenario({}, (AddComponent("many"), GetComponents())))
+TOO_MANY = "get_components returned more than 10000 ids, which no scenario can have led to"
+
+
+def check_refused(answer: m.FromHost) -> None:
+    assert isinstance(answer, m.Refused), answer
+    assert answer.reason.endswith(TOO_MANY), answer.reason
+
+
+def test_python_refuses_too_many_ids() -> None:
+    check_refused(m.from_host_decoder().decode(Engine(RudeAdapter).answer(m.encode(MANY))))
+
+
+def test_cpp_refuses_too_many_ids(builds: Builds) -> None:
+    check_refused(talk(builds.program("rude"), MANY)[0][0])
+
+
+def test_java_refuses_too_many_ids(java: JavaBuilds) -> None:
+    check_refused(talk(java.program("RudeAdapter"), MANY)[0][0])

@@ -1,8 +1,12 @@
+import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.ucmcts.Adapter;
+import org.ucmcts.Body;
+import org.ucmcts.Fragment;
 import org.ucmcts.Host;
 import org.ucmcts.Implementation;
+import org.ucmcts.PortConnection;
 import org.ucmcts.PortElement;
 import org.ucmcts.Product;
 import org.ucmcts.UcmException.BadParameter;
@@ -11,7 +15,10 @@ import org.ucmcts.UcmException.UcmError;
 
 /** Does something bad, which the name of the component to add chooses. */
 public final class RudeAdapter extends Adapter<String> {
+    private static final int TOO_MANY = 10_001;
+
     private List<Implementation> all;
+    private boolean isFlooding;
 
     public static void main(String[] arguments) {
         Host.serve(arguments, new Product("rude", "0", "{port}.{element}"), RudeAdapter::new);
@@ -44,6 +51,7 @@ public final class RudeAdapter extends Adapter<String> {
             case "throw text" -> throw new NotFound("\"quoted\" ä \ud800");
             default -> { }
         }
+        isFlooding = what.equals("many");
         return Integer.MAX_VALUE;
     }
 
@@ -73,6 +81,11 @@ public final class RudeAdapter extends Adapter<String> {
                 run.run();
             }
         }));
+        all.stream().filter(one -> one.name().equals("flooded")).forEach(one -> {
+            Body body = one.create().get();
+            ((Fragment) body).setContainerInterface(() -> Collections.nCopies(TOO_MANY, 1));
+            body.onStartup(Collections.nCopies(TOO_MANY, new PortConnection("out", List.of())));
+        });
     }
 
     @Override
@@ -82,7 +95,8 @@ public final class RudeAdapter extends Adapter<String> {
 
     @Override
     public List<Integer> getComponents(String container) {
-        return container.equals("sub") ? null : List.of(Integer.MAX_VALUE - 1);
+        List<Integer> ids = Collections.nCopies(isFlooding ? TOO_MANY : 1, Integer.MAX_VALUE - 1);
+        return container.equals("sub") ? null : ids;
     }
 
     @Override

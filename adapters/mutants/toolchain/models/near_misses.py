@@ -61,7 +61,7 @@ def attributes_of_strangers_clash(module: mc.ComponentModule, _: Scope) -> bool:
     return any(one.refines for one in module.component_types) and max(names.values(), default=0) > 1
 
 
-@refuses("R-9.5.3.2-03", also=("R-9.3.3.1-01", "R-9.5.5.8-01"))
+@refuses("R-9.5.3.2-03", also=("R-9.3.3.1-01", "R-9.5.5.6-04", "R-9.5.5.8-01"))
 def ports_of_one_sort(component: mc.ComponentType, _: Scope) -> bool:
     """Takes a component type with ports by role and by type for an error if they are two."""
     return len(component.ports) == 2 and len({type(spec) for port in component.ports for spec in port.specs}) > 1

@@ -12,6 +12,7 @@
 #define UCM_CTS_DATA_TYPES_HPP
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <string>
@@ -38,6 +39,12 @@ inline std::vector<Parameter> Method::results() const {
 
 /// The interfaces of those port elements that have one, by the port element's name.
 typedef std::map<std::string, SharedInterface> Interfaces;
+
+/// How many ids, records, connections or references a framework may hand over: far more than any scenario makes.
+constexpr std::size_t MOST = 10000;
+
+/// What is said of more than `MOST` of `what`.
+inline std::string too_many(const std::string& what) { return "more than " + std::to_string(MOST) + " " + what; }
 
 /// Can it stand for a value of a UCM type?
 inline bool is_datum(const Datum& value) {

@@ -184,6 +184,9 @@ class Operations {
                 break;
             case Operation::get_components: {
                 const std::vector<Id> ids = adapter_->get_components(with.container);
+                if (is_too_much(ids.size(), "get_components", "ids")) {
+                    break;
+                }
                 variables_.saw(ids);
                 return returned(number, ids);
             }
@@ -231,11 +234,22 @@ class Operations {
         const auto deadline = std::chrono::steady_clock::now() + stage_->patience;
         while (true) {
             std::vector<LogRecord> records = adapter_->read_log(manager_);
+            if (is_too_much(records.size(), "read_log", "records")) {
+                return {};
+            }
             if (static_cast<std::int64_t>(records.size()) >= enough || std::chrono::steady_clock::now() >= deadline) {
                 return records;
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
+    }
+
+    // Says so if the adapter returned what no scenario can have led to.
+    bool is_too_much(std::size_t size, const char* call, const char* what) {
+        if (size > MOST) {
+            stage_->complain(std::string(call) + " returned " + too_many(what) + ", which no scenario can have led to");
+        }
+        return size > MOST;
     }
 
     // Null for a component that the scenario does not declare.

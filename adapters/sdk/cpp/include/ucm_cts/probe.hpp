@@ -84,17 +84,19 @@ class Probe {
         if (over()) {
             return Data();
         }
-        if (!are_data(arguments)) {
-            complain(method + " was called with what are no values: ", arguments);
-            return Data();
-        }
-        if (messages_) {
-            count(method, arguments);
+        const bool sound = are_data(arguments);
+        if (sound && messages_ && is_message(arguments)) {
+            messages_->add(arguments[0].get<std::uint32_t>());
             return Data{"ok"};
         }
-        record(entry(Hook::method).port(port).method(method).arguments(arguments));
+        const Data given = sound ? arguments : Data();
+        events::Enter entered = entry(Hook::method).port(port).method(method).arguments(given);
+        if (!sound || messages_) {
+            entered.wrong(in_words(arguments));
+        }
+        record(entered);
         perform(Hook::method, nullptr);
-        return answer(method, arguments);
+        return answer(method, given);
     }
 
     void keep(const std::vector<PortConnection>& connections) {
@@ -134,18 +136,17 @@ class Probe {
         return true;
     }
 
-    void complain(const std::string& problem, const Data& data) {
-        std::string text = problem;
+    // What came in place of values, for people.
+    static std::string in_words(const Data& data) {
+        std::string text;
         json::append(text, data);
-        stage_->complain(json::shortened(text, 200));
+        return json::shortened(text, 200);
     }
 
-    void count(const std::string& method, const Data& arguments) {
-        if (arguments.empty() || !arguments[0].is_number_integer() || arguments[0] < 0 || arguments[0] > UINT32_MAX) {
-            complain(method + " was called with what is no ULONG: ", arguments);
-            return;
-        }
-        messages_->add(arguments[0].get<std::uint32_t>());
+    // Can it be one of the messages that are counted?
+    static bool is_message(const Data& arguments) {
+        return !arguments.empty() && arguments[0].is_number_integer() && arguments[0] >= 0 &&
+               arguments[0] <= UINT32_MAX;
     }
 
     // Leaves `method` as the plan says.
@@ -229,9 +230,10 @@ class Probe {
         record(request(action.port).method(action.method).arguments(action.arguments));
         events::Reply replied = reply(action.port);
         try {
-            replied.results(sound(action, callee.call(action.method, *arguments)));
+            put(replied, callee.call(action.method, *arguments));
         } catch (const DeclaredException& error) {
-            replied.results(sound(action, error.fields)).exception(error.name);
+            put(replied, error.fields);
+            replied.exception(error.name);
         } catch (...) {
             replied.raised(true);
         }
@@ -239,13 +241,13 @@ class Probe {
         overwrite(*arguments);
     }
 
-    // `results` if they are values, none if not.
-    Data sound(const Action& action, const Data& results) {
+    // `results` if they are values; if not, none, and what they are.
+    static void put(events::Reply& replied, const Data& results) {
         if (are_data(results)) {
-            return results;
+            replied.results(results);
+        } else {
+            replied.results(Data()).wrong(in_words(results));
         }
-        complain(action.method + " gave to a probe what are no values: ", results);
-        return Data();
     }
 
     // One buffer for all messages: an emitter overwrites a message with the next one.
@@ -304,7 +306,9 @@ class Probe {
             if (!container) {
                 throw std::logic_error("no container interface was given");
             }
-            record(events::Siblings(name(), instance_).ids(container->get_components()));
+            const std::vector<Id> ids = container->get_components();
+            events::Siblings siblings(name(), instance_);
+            record(ids.size() > MOST ? siblings.wrong(too_many("ids")) : siblings.ids(ids));
         } catch (...) {
             record(events::Siblings(name(), instance_).raised(true));
         }

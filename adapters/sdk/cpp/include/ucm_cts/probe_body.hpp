@@ -59,8 +59,14 @@ class ProbeBody final : public Body {
     }
 
     void on_startup(const std::vector<PortConnection>& dependencies) override {
-        probe_->keep(dependencies);
-        probe_->visit(Hook::on_startup, probe_->entry(Hook::on_startup).dependencies(dependencies));
+        const std::string wrong = excess(dependencies);
+        if (wrong.empty()) {
+            probe_->keep(dependencies);
+            probe_->visit(Hook::on_startup, probe_->entry(Hook::on_startup).dependencies(dependencies));
+        } else {
+            probe_->keep(std::vector<PortConnection>());
+            probe_->visit(Hook::on_startup, probe_->entry(Hook::on_startup).dependencies({}).wrong(wrong));
+        }
     }
 
     void on_shutdown() override {
@@ -106,6 +112,19 @@ class ProbeBody final : public Body {
     }
 
   private:
+    // What is too much of it, empty if nothing is.
+    static std::string excess(const std::vector<PortConnection>& dependencies) {
+        if (dependencies.size() > MOST) {
+            return too_many("connections");
+        }
+        for (const PortConnection& connection : dependencies) {
+            if (connection.to_port.size() > MOST) {
+                return too_many("references of ") + connection.from_port;
+            }
+        }
+        return "";
+    }
+
     // references given at on_startup are dropped when on_shutdown is over, however it ends
     struct Forgetting {
         Probe& probe;

@@ -69,12 +69,10 @@ final class Actions {
     }
 
     private void reply(Action action, List<Object> results, String exception) {
-        if (!Data.isData(results)) {
-            probe.stage.recorder.complain(
-                    action.method() + " gave " + results + " to a probe, which are no values");
-            return;
-        }
-        probe.record("reply", "port", action.port(), "results", Data.copy(results), "exception", exception);
+        boolean isSound = Data.isData(results);
+        List<Object> given = isSound ? Data.copy(results) : List.of();
+        String wrong = isSound ? null : Data.inWords(results);
+        probe.record("reply", "port", action.port(), "results", given, "exception", exception, "wrong", wrong);
     }
 
     private void push(Action action, PortElement reference) {
@@ -95,13 +93,30 @@ final class Actions {
     }
 
     private void querySiblings() {
-        List<Integer> members;
+        List<?> members;
         try {
-            members = List.copyOf(container.getComponents());
+            members = container.getComponents();
         } catch (Throwable error) { // thrown by the framework, or because it gave no container
             probe.record("siblings", "raised", true);
             return;
         }
-        probe.record("siblings", "ids", members);
+        List<Object> ids = new ArrayList<>();
+        String wrong = members == null ? Data.inWords(null) : null;
+        try {
+            for (Object member : members == null ? List.of() : members) {
+                if (!(member instanceof Integer)) {
+                    wrong = Data.inWords(members);
+                } else if (ids.size() == Data.MOST) {
+                    wrong = Data.tooMany("ids");
+                }
+                if (wrong != null) {
+                    break;
+                }
+                ids.add(member);
+            }
+        } catch (RuntimeException error) { // the list is the framework's
+            wrong = Data.inWords(members);
+        }
+        probe.record("siblings", "ids", wrong == null ? ids : List.of(), "wrong", wrong);
     }
 }

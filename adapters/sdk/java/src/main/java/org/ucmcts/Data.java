@@ -6,7 +6,34 @@ import java.util.List;
 
 /** Values of UCM types that pass through a probe, which copies them at once, since their owner may change them. */
 final class Data {
+    /** How many ids, records, connections or references a framework may hand over: far more than any scenario makes. */
+    static final int MOST = 10_000;
+
+    private static final int LONGEST = 200; // characters of a value that are shown
+    private static final int SHOWN = 8; // elements of a list that are shown
+
     private Data() {}
+
+    /** What is said of more than {@code MOST} of {@code what}. */
+    static String tooMany(String what) {
+        return "more than " + MOST + " " + what;
+    }
+
+    /** {@code value} and its type, for people; never throws. */
+    static String inWords(Object value) {
+        if (value == null) {
+            return "nothing";
+        }
+        String text;
+        try {
+            List<?> first = value instanceof List<?> list ? list.subList(0, Math.min(list.size(), SHOWN)) : null;
+            text = String.valueOf(first == null ? value : first);
+        } catch (RuntimeException | StackOverflowError error) { // the object is the framework's
+            text = "a value";
+        }
+        int most = Math.min(LONGEST, text.codePointCount(0, text.length()));
+        return text.substring(0, text.offsetByCodePoints(0, most)) + " (" + value.getClass().getSimpleName() + ")";
+    }
 
     /** Can it stand for a list of values of UCM types? */
     static boolean isData(Object value) {

@@ -219,7 +219,10 @@ final class Operations<C> {
         return () -> {
             List<Integer> members = adapter.getComponents(container);
             if (members == null || members.stream().anyMatch(Objects::isNull)) {
-                throw new ContractBroken("returned " + members + "; it returns a list of integers");
+                throw new ContractBroken("returned " + Data.inWords(members) + "; it returns a list of integers");
+            }
+            if (members.size() > Data.MOST) {
+                throw new ContractBroken("returned " + Data.tooMany("ids") + ", which no scenario can have led to");
             }
             List<Integer> ids = List.copyOf(members);
             variables.saw(ids);
@@ -240,7 +243,10 @@ final class Operations<C> {
         while (true) {
             List<Adapter.LogRecord> read = adapter.readLog(manager);
             if (read == null || read.stream().anyMatch(Objects::isNull)) {
-                throw new ContractBroken("returned " + read + "; it returns a list of records");
+                throw new ContractBroken("returned " + Data.inWords(read) + "; it returns a list of records");
+            }
+            if (read.size() > Data.MOST) {
+                throw new ContractBroken("returned " + Data.tooMany("records") + ", which no scenario can have led to");
             }
             if (read.size() >= records || System.nanoTime() - deadline >= 0) {
                 return read.stream()

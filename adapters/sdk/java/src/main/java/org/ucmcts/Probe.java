@@ -91,8 +91,8 @@ class Probe implements Body {
 
     @Override
     public void setAttribute(String name, String value) {
-        if (isGiven("set_attribute", name) && isGiven("set_attribute", value)) {
-            attributes.put(name, value);
+        if (name != null) {
+            attributes.put(name, value == null ? Data.inWords(null) : value);
         }
     }
 
@@ -107,25 +107,42 @@ class Probe implements Body {
     public void onStartup(List<PortConnection> dependencies) {
         List<Object> recorded = new ArrayList<>();
         Map<String, List<PortElement>> references = new HashMap<>();
-        if (isGiven("on_startup", dependencies)) {
-            for (PortConnection connection : dependencies) {
-                if (!isGiven("on_startup", connection)
-                        || !isGiven("on_startup", connection.fromPort())
-                        || !isGiven("on_startup", connection.toPort())) {
-                    continue;
+        String wrong = wrongIn(dependencies);
+        for (PortConnection connection : wrong == null ? dependencies : List.<PortConnection>of()) {
+            List<Object> recognised = new ArrayList<>();
+            for (PortElement reference : connection.toPort()) {
+                recognised.add(stage.recognise(reference));
+                if (reference != null) {
+                    references.computeIfAbsent(connection.fromPort(), any -> new ArrayList<>()).add(reference);
                 }
-                List<Object> recognised = new ArrayList<>();
-                for (PortElement reference : connection.toPort()) {
-                    recognised.add(stage.recognise(reference));
-                    if (reference != null) {
-                        references.computeIfAbsent(connection.fromPort(), any -> new ArrayList<>()).add(reference);
-                    }
-                }
-                recorded.add(Map.of("port", connection.fromPort(), "references", recognised));
             }
+            recorded.add(Map.of("port", connection.fromPort(), "references", recognised));
         }
         actions.references = references;
-        visit("on_startup", null, "dependencies", recorded);
+        visit("on_startup", null, "dependencies", recorded, "wrong", wrong);
+    }
+
+    /** What of the connections is of a wrong type or too much, for people; null if nothing is. */
+    private static String wrongIn(List<PortConnection> dependencies) {
+        if (dependencies == null) {
+            return Data.inWords(null) + " as its connections";
+        }
+        if (dependencies.size() > Data.MOST) {
+            return Data.tooMany("connections");
+        }
+        for (PortConnection connection : dependencies) {
+            if (connection == null || connection.fromPort() == null) {
+                String what = connection == null ? " as a connection" : " as the name of a port element";
+                return Data.inWords(null) + what;
+            }
+            if (connection.toPort() == null) {
+                return Data.inWords(null) + " as the references of " + connection.fromPort();
+            }
+            if (connection.toPort().size() > Data.MOST) {
+                return Data.tooMany("references of " + connection.fromPort());
+            }
+        }
+        return null;
     }
 
     @Override
@@ -170,16 +187,15 @@ class Probe implements Body {
         if (!stage.recorder.isRecording()) {
             return List.of();
         }
-        if (!Data.isData(arguments)) {
-            stage.recorder.complain(method + " was called with " + arguments + ", which are no values");
-            return List.of();
-        }
-        if (actions("method").stream().anyMatch(action -> action.tag().equals("count"))) {
-            stage.messages.add(component, instance, ((Number) arguments.get(0)).longValue());
+        boolean isSound = Data.isData(arguments);
+        boolean counts = actions("method").stream().anyMatch(action -> action.tag().equals("count"));
+        if (isSound && counts && !arguments.isEmpty() && arguments.get(0) instanceof Number number) {
+            stage.messages.add(component, instance, number.longValue());
             return List.of("ok");
         }
-        List<Object> given = Data.copy(arguments);
-        record("enter", "hook", "method", "port", port, "method", method, "arguments", given);
+        List<Object> given = isSound ? Data.copy(arguments) : List.of();
+        String wrong = isSound && !counts ? null : Data.inWords(arguments);
+        record("enter", "hook", "method", "port", port, "method", method, "arguments", given, "wrong", wrong);
         Action answer = null;
         for (Action action : actions("method")) {
             if (action.tag().equals("raise")) {
@@ -196,7 +212,7 @@ class Probe implements Body {
         results = Data.copy(results == null ? given : results);
         String exception = answer == null ? null : answer.exception();
         record("exit", "hook", "method", "results", Data.copy(results), "exception", exception);
-        if (answer != null && answer.overwrite()) {
+        if (answer != null && answer.overwrite() && arguments != null) {
             Data.overwrite(arguments);
         }
         if (exception != null) {
@@ -243,25 +259,19 @@ class Probe implements Body {
         stage.recorder.record(kind, all.toArray());
     }
 
-    private boolean isGiven(String where, Object value) {
-        if (value == null) {
-            stage.recorder.complain(where + " was given null where a value is due");
-        }
-        return value != null;
+    private static String wrongIn(String portName) {
+        return portName == null ? Data.inWords(null) : null;
     }
 
     /** For those that are {@link Connectable}. */
     public final void onConnect(String portName, PortElement required) {
-        if (isGiven("on_connect", portName)) {
-            visit("on_connect", null, "port", portName, "reference", stage.recognise(required));
-        }
+        Object reference = stage.recognise(required);
+        visit("on_connect", null, "port", portName, "reference", reference, "wrong", wrongIn(portName));
     }
 
     /** For those that are {@link Connectable}. */
     public final void onDisconnect(String portName) {
-        if (isGiven("on_disconnect", portName)) {
-            visit("on_disconnect", null, "port", portName);
-        }
+        visit("on_disconnect", null, "port", portName, "wrong", wrongIn(portName));
     }
 
     /** For those that are {@link Fragment}. */
