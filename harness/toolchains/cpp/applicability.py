@@ -14,6 +14,11 @@ from ucm_cts.harness.toolchains.cpp.probes.check import GENERATED, HEADERS, rule
 from ucm_cts.reference_models.mapping.cpp.expected import Standard
 from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 
+ASKED_OF = {"R-13.2.1-04": "cpp-struct=accessors"}
+"""The requirements that are only asked of those who declare a reading (``option=value``)."""
+
+_DECLARED = dict(reading.split("=") for reading in ASKED_OF.values())
+
 MODELS = SUITE / "models" / "mapping"
 
 
@@ -24,7 +29,7 @@ def stand_for() -> Mapping[str, frozenset[str]]:
     for path in sorted(MODELS.glob("*.xml")):
         model = read_model(path.read_bytes(), path.name).model
         for standard in get_args(Standard):
-            for expected in expected_cpp(model, standard, {}).expected:
+            for expected in expected_cpp(model, standard, _DECLARED).expected:
                 found.setdefault(rule_of(expected.claim), set()).add(expected.requirement)
     return {rule: frozenset(requirements) for rule, requirements in found.items()}
 
@@ -32,4 +37,9 @@ def stand_for() -> Mapping[str, frozenset[str]]:
 def not_applicable(statement: Statement) -> Mapping[str, str]:
     """The requirements of clause 13 that do not apply to this vendor, and why."""
     reasons = {r.id: why_not(r, statement) for r in load_requirements() if r.rules and r.id.startswith("R-13")}
-    return {requirement: why[1] for requirement, why in reasons.items() if why is not None}
+    undeclared = {
+        requirement: f"only asked of who declares {reading}"
+        for requirement, reading in ASKED_OF.items()
+        if not statement.meets(reading)
+    }
+    return undeclared | {requirement: why[1] for requirement, why in reasons.items() if why is not None}

@@ -100,6 +100,21 @@ class Copied(Claim, frozen=True):
     thrown: bool = False
 
 
+class Changed(Claim, frozen=True):
+    """A value assigned to what the accessor ``field`` of ``owner`` returns is read from it."""
+
+    owner: str
+    field: str
+    sample: Sample
+
+
+class Constructed(Claim, frozen=True):
+    """``owner`` is made from a value of each of its fields, in their order; ``fields`` has names and values."""
+
+    owner: str
+    fields: tuple[tuple[str, Sample], ...]
+
+
 class Discriminator(Claim, frozen=True):
     """Once ``case`` of the union ``owner`` was written, and read, one of ``functions`` returns one of ``values``."""
 

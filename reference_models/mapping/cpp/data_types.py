@@ -150,8 +150,18 @@ def _structure(declared: Declared, structure: contracts.Structure, context: Cont
     yield expect("R-13.2.1-01", declared, claims.IsClass(name))
     if not _is_large(declared):
         yield expect("R-13.2.1-02", declared, claims.Regular(name))
-    for field in structure.fields:
-        yield from _field("R-13.2.1-03", "R-13.2.1-02", declared, field, context)
+    asked = [
+        one for field in structure.fields for one in _field("R-13.2.1-03", "R-13.2.1-02", declared, field, context)
+    ]
+    yield from asked
+    if struct_forms(context) != ("accessors",):
+        return
+    fields = [one.claim for one in asked if isinstance(one.claim, claims.Field)]
+    for field, claim in zip(structure.fields, fields, strict=False) if len(fields) == len(structure.fields) else ():
+        yield expect("R-13.2.1-04", declared, claims.Changed(name, claim.field, claim.sample), field)
+    if fields and len(fields) == len(structure.fields):
+        made = claims.Constructed(name, tuple((claim.field, claim.sample) for claim in fields))
+        yield expect("R-13.2.1-04", declared, made)
 
 
 def _union(declared: Declared, union: contracts.Union, context: Context) -> Iterator[Expected]:

@@ -36,6 +36,12 @@ def of_types(claim: claims.Claim) -> Text | None:
             return _field(claim)
         case claims.Copied():
             return _copied(claim)
+        case claims.Changed(owner, field, sample):
+            kept = _same(sample, f"object.{field}()", "value", "it does not keep what is assigned to it")
+            run = f"{owner} object; const {sample.type} value = {sample.first}; object.{field}() = value; {kept}"
+            return Text(f"{field}() of {owner} returns a reference that can be assigned to", run=run)
+        case claims.Constructed():
+            return _constructed(claim)
         case claims.Discriminator():
             return _discriminator(claim)
         case claims.IsConstant(name):
@@ -111,10 +117,14 @@ def _field(claim: claims.Field) -> Text:
     ):
         exact = f"typedef typename ::ucts::one_of<typename ::ucts::bare<UCTS_TYPE({read})>::type, V>::yes checked;"
         kept = _same(sample, read, "value", "it does not keep what is written to it")
-        bodies[form] = f"{write} {exact} {kept}"
+        constant = f"typename ::ucts::bare<UCTS_TYPE({read.replace('object', 'constant')})>::type"
+        whole = f"const T& constant = object; typedef typename ::ucts::one_of<{constant}, V>::yes read; "
+        whole += _same(sample, read.replace("object", "constant"), "value", "it is not what a constant object has")
+        bodies[form] = f"{write} {exact} {kept} {whole}"
     declared, arguments = _dispatch(field, sample, claim.forms, bodies)
     run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; use_field({arguments});"
-    return Text(f"{owner} has a field {field} of type {sample.type} that is written and read", declared, run)
+    says = f"{owner} has a field {field} of type {sample.type} that is written, and read of constant objects, too"
+    return Text(says, declared, run)
 
 
 def _copied(claim: claims.Copied) -> Text:
@@ -134,6 +144,22 @@ def _copied(claim: claims.Copied) -> Text:
     run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; use_field({arguments});"
     kept = "thrown and caught" if claim.thrown else "copied and assigned"
     return Text(f"{owner} is {kept} with its field {field}", declared, run)
+
+
+def _constructed(claim: claims.Constructed) -> Text:
+    """Once for each field, which has another value than the others: so none is mistaken for another."""
+    fields = tuple(enumerate(claim.fields))
+    run = ""
+    for special, _ in fields:
+        values = "".join(
+            f"const {sample.type} value_{n} = {sample.second if n == special else sample.first}; "
+            for n, (_, sample) in fields
+        )
+        made = f"const {claim.owner} made({', '.join(f'value_{n}' for n, _ in fields)}); "
+        wrong = "a field has not the value that it was made from"
+        kept = "".join(_same(sample, f"made.{field}()", f"value_{n}", wrong) for n, (field, sample) in fields)
+        run += f"{{ {values}{made}{kept} }} "
+    return Text(f"{claim.owner} is made from a value of each field, in their order", run=run)
 
 
 def _discriminator(claim: claims.Discriminator) -> Text:

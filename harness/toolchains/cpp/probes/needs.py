@@ -30,16 +30,17 @@ def lacks(claim: Claim, failed: Claim) -> str:
         return f"{failed.method} is not declared"
     if isinstance(failed, claims.ReturnsReference) and _uses_result(claim, failed):
         return f"{failed.getter} leads to no class"
-    if isinstance(claim, claims.Copied) and _keeps_nothing(claim, failed):
-        return f"{claim.field} cannot be written and read"
+    if isinstance(claim, claims.Copied | claims.Changed | claims.Constructed) and _keeps_nothing(claim, failed):
+        return f"a field of {claim.owner} cannot be written and read"
     if isinstance(claim, _AT_LAST) and isinstance(failed, _USED):
         return "what it uses is not as it should be" if _owner(claim) == _owner(failed) else ""
     return ""
 
 
-def _keeps_nothing(claim: claims.Copied, failed: Claim) -> bool:
-    """Whether the field that is to be copied is not as it should be."""
-    return isinstance(failed, claims.Field) and (failed.owner, failed.field) == (claim.owner, claim.field)
+def _keeps_nothing(claim: claims.Copied | claims.Changed | claims.Constructed, failed: Claim) -> bool:
+    """Whether a field that ``claim`` uses is not as it should be."""
+    used = [name for name, _ in claim.fields] if isinstance(claim, claims.Constructed) else [claim.field]
+    return isinstance(failed, claims.Field) and failed.owner == claim.owner and failed.field in used
 
 
 def line_of(claim: Claim, text: str) -> int:
