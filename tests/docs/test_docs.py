@@ -417,6 +417,47 @@ def test_example_of_profile_core_serves(here: Path) -> None:
     assert [one for one, verdict in verdicts.items() if verdict == "fail"] == ["R-10.1-01"]
 
 
+def test_fragment_connectors_of_profile_core(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_files("docs/profile-core.md")
+    monkeypatch.syspath_prepend(here)
+    adapter = importlib.import_module("acme_links").AcmeAdapter
+    assert adapter.end_fragments.keys() < {s.SERVICE_CONNECTOR, s.MESSAGE_CONNECTOR}
+    assert adapter.__abstractmethods__ == {"create_runtime"}
+
+
+_DEFECTS = {
+    "#include <string>\n": "#include <string>\n#include <thread>\n",
+    "        running_ = true;\n": """
+        std::thread other([this] { ++last_line_; });
+        ++last_line_;
+        other.join();
+        int* const gone = new int(1);
+        delete gone;
+        running_ = *gone != 2;
+""",
+}
+"""A race and a use of freed memory whenever Beans start."""
+
+
+@pytest.mark.native
+def test_sanitizers_of_the_cpp_guide_tell_what_is_wrong(here: Path) -> None:
+    write_files("docs/adapter-cpp.md")
+    beans = Path("beans.hpp").read_text()
+    for good, bad in _DEFECTS.items():
+        assert good in beans
+        beans = beans.replace(good, bad, 1)
+    Path("beans.hpp").write_text(beans)
+    recipe = marked("docs/adapter-cpp.md", "sanitizers")
+    recipe = re.sub(r"(?m)^include=.*$", f"include={shlex.quote(str(ROOT / 'adapters/sdk/cpp/include'))}", recipe)
+    shell(re.sub(r"(?m)^(    ucm-cts .*)$", r"\1 -k R-11.2.2.1-04 || test $? -eq 1", recipe))
+    for kind, text in (
+        ("address,undefined", "AddressSanitizer: heap-use-after-free"),
+        ("thread", "ThreadSanitizer: data race"),
+    ):
+        incidents = report_of(here / f"report-{kind}")["incidents"]
+        assert any(text in json.dumps(incident) for incident in incidents), kind
+
+
 def test_published_self_tests_are_proved_as_detection_says() -> None:
     frameworks, toolchains = (
         read_record(ROOT / f"results/detection/{of}.jsonl") for of in ("frameworks", "toolchains")
