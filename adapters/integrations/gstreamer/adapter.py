@@ -6,12 +6,13 @@ import itertools
 import threading
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from types import SimpleNamespace
 from typing import Any
 
 from ucm_cts.adapters.contract import programming_model as ucm
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.integrations.gstreamer.binding import Gst
+from ucm_cts.adapters.sdk.python.bodies import initialise, port_connections
+from ucm_cts.adapters.sdk.python.forwarding import ContainerMembers
 
 _PROVIDED, _REQUIRED = "provided_", "required_"
 _SIZE = 4  # bytes of a value in a buffer
@@ -48,7 +49,7 @@ class GStreamerAdapter(Adapter):
         if implementation not in self._implementations:
             raise ucm.UcmError(f"no element {implementation}")
         number = next(self._numbers)
-        members = SimpleNamespace(get_components=lambda: self.get_components(container))
+        members = ContainerMembers(self, container)
         element = _Component(str(number), self._implementations[implementation], attributes, members)
         _set_state(element, Gst.State.READY)
         container.add(element)
@@ -126,7 +127,7 @@ class _Component(Gst.Element):
     def do_change_state(self, change: Any) -> Any:
         try:
             if change == Gst.StateChange.NULL_TO_READY:
-                self._initialise()
+                initialise(self.body, self.attributes, self.members)
             elif change == Gst.StateChange.PAUSED_TO_PLAYING:
                 self.body.on_startup(self._dependencies())
         except Exception:  # noqa: BLE001 - a body may raise anything
@@ -138,19 +139,8 @@ class _Component(Gst.Element):
                 self.body.on_remove()
         return Gst.Element.do_change_state(self, change)
 
-    def _initialise(self) -> None:
-        for name, value in self.attributes.items():
-            self.body.set_attribute(name, value)
-        if isinstance(self.body, ucm.FragmentObject):
-            self.body.set_container_interface(self.members)
-        self.body.on_init()
-
     def _dependencies(self) -> list[ucm.PortConnection]:
-        linked = [pad for pad in self.srcpads if pad.is_linked()]
-        ports = dict.fromkeys(pad.port for pad in linked)
-        return [
-            ucm.PortConnection(port, tuple(_Reference(pad) for pad in linked if pad.port == port)) for port in ports
-        ]
+        return port_connections((pad.port, _Reference(pad)) for pad in self.srcpads if pad.is_linked())
 
     def do_request_new_pad(self, template: Any, name: str, caps: Any) -> Any:
         kind = _REQUIRED if template.direction == Gst.PadDirection.SRC else _PROVIDED

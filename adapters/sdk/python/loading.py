@@ -71,7 +71,7 @@ def current_name(spec: str) -> str:
 def _answer_of(module: ModuleType) -> Answer:
     answer = getattr(module, "answer", None)
     if not callable(answer):
-        adapters = [name for name, value in vars(module).items() if _is_adapter(value) and value is not Adapter]
+        adapters = _complete_adapters(module)
         hint = f"; did you mean {module.__name__}:{adapters[0]}" if adapters else ""
         raise CannotLoad(f"module {module.__name__} has no function answer(bytes) -> bytes{hint}")
     if _can_stream(answer):
@@ -122,7 +122,7 @@ def _import_file(path: Path) -> ModuleType:
 def _find_class(module: ModuleType, name: str) -> type[Adapter]:
     found = getattr(module, name, None)
     if found is None:
-        adapters = [key for key, value in vars(module).items() if _is_adapter(value)]
+        adapters = _complete_adapters(module)
         there = f"; there is {', '.join(adapters)}" if adapters else ""
         raise CannotLoad(f"module {module.__name__} has no {name}{there}")
     if not _is_adapter(found):
@@ -132,6 +132,11 @@ def _find_class(module: ModuleType, name: str) -> type[Adapter]:
         missing = ", ".join(sorted(cls.__abstractmethods__))
         raise CannotLoad(f"{module.__name__}:{name} does not implement {missing}")
     return cls
+
+
+def _complete_adapters(module: ModuleType) -> list[str]:
+    """Names of the adapters in ``module`` that lack no operation, as the base classes do that it imports."""
+    return [name for name, value in vars(module).items() if _is_adapter(value) and not value.__abstractmethods__]
 
 
 def _is_adapter(value: object) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -26,6 +27,7 @@ from ucm_cts.adapters.contract.programming_model import (
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.bodies import Methods, References, initialise, port_connections
 from ucm_cts.adapters.sdk.python.forwarding import ContainerMembers, ForwardingAdapter, Ids
+from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
 from ucm_cts.adapters.sdk.python.policies import Policies, PortTrace
 
 
@@ -121,6 +123,18 @@ def test_equal_ids_have_one_number_and_keep_it() -> None:
     assert ids.own(2) == "b"
     assert ids.own(3) is unhashable
     assert ids.own(77) == "nobody"
+
+
+def test_hint_names_an_adapter_that_is_complete(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "crates.py").write_text(
+        "from ucm_cts.adapters.sdk.python.forwarding import ForwardingAdapter\n"
+        "class Crates(ForwardingAdapter):\n    def create_runtime(self, implementations): ...\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(CannotLoad, match=r"did you mean crates:Crates$"):
+        load("crates")
+    with pytest.raises(CannotLoad, match=r"; there is Crates$"):
+        load("crates:Other")
 
 
 def test_references_come_back_as_they_were() -> None:
