@@ -131,6 +131,11 @@ def _find_class(module: ModuleType, name: str) -> type[Adapter]:
     if cls.__abstractmethods__:
         missing = ", ".join(sorted(cls.__abstractmethods__))
         raise CannotLoad(f"{module.__name__}:{name} does not implement {missing}")
+    for field in ("product", "version", "port_element_name"):
+        if not isinstance(getattr(cls, field), str):
+            raise CannotLoad(
+                f'{module.__name__}:{name} has a {field} that is no text; write {field} = "..." in the class'
+            )
     return cls
 
 

@@ -137,6 +137,18 @@ def test_hint_names_an_adapter_that_is_complete(tmp_path: Path, monkeypatch: pyt
         load("crates:Other")
 
 
+@pytest.mark.parametrize("field", ["product", "version", "port_element_name"])
+def test_what_an_adapter_says_of_itself_is_text(field: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / f"no_{field}.py").write_text(
+        "from ucm_cts.adapters.sdk.python.forwarding import ForwardingAdapter\n"
+        "class Crates(ForwardingAdapter):\n    def create_runtime(self, implementations): ...\n"
+        f"    {field} = property(lambda self: 'x')\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(CannotLoad, match=f"^no_{field}:Crates has a {field} that is no text; write {field} = "):
+        load(f"no_{field}:Crates")
+
+
 def test_references_come_back_as_they_were() -> None:
     references = References(lambda own, value: own + value)
     wrapped = references.wrap(5)
