@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from ucm_cts.adapters.contract.adapter import Adapter, ContainerHandle, LinkHandle, NotOffered
 from ucm_cts.adapters.contract.data_types import Interface
@@ -75,8 +75,16 @@ class ForwardingAdapter(Adapter):
     numbered: ClassVar[bool] = False
     """Whether the framework's ids are no integers: ``components`` and ``connections`` number them."""
 
-    def __init__(self) -> None:
-        self.components, self.connections = Ids(), Ids()
+    components: Ids
+    """Numbers of the framework's ids of components, if ``numbered``. A subclass may set it, to say what ``unknown`` is."""
+
+    connections: Ids
+    """Numbers of its ids of connections, if ``numbered``."""
+
+    def __new__(cls) -> Self:  # not __init__: subclasses may have one of their own that knows nothing of this one
+        made = super().__new__(cls)
+        made.components, made.connections = Ids(), Ids()
+        return made
 
     def configuration(self, implementation: str, attributes: Mapping[str, str]) -> Sequence[Any]:
         """The arguments of the framework's ``add_component``."""

@@ -7,9 +7,9 @@ Each end of a link is a fragment, which the framework instantiates like a compon
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from ucm_cts.adapters.contract.adapter import Adapter, ContainerHandle, NotOffered
 from ucm_cts.adapters.contract.data_types import Interface
@@ -61,9 +61,12 @@ class FragmentConnectors(Adapter):
     end_fragments: ClassVar[Mapping[str, Mapping[str, EndFragment]]] = {}
     """The fragments, by connector and role. A connector that is missing is not offered."""
 
-    def __init__(self) -> None:
-        super().__init__()
-        self._link_numbers = itertools.count(1)
+    _link_numbers: Iterator[int]
+
+    def __new__(cls) -> Self:  # not __init__: subclasses may have one of their own that knows nothing of this one
+        made = super().__new__(cls)
+        made._link_numbers = itertools.count(1)
+        return made
 
     def end_fragment(self, link: FragmentLink, role: str) -> EndFragment:
         """The fragment for an end of ``link``; override it where that depends on the interface."""

@@ -71,6 +71,9 @@ class CrateAdapter(ForwardingAdapter):
     numbered = True
     references = References(lambda own, value: own + value)
 
+    def __init__(self) -> None:
+        """Without a call of the base class's, as strangers write it."""
+
     def create_runtime(self, implementations: Sequence[Implementation]) -> Crate:
         return Crate()
 
