@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,19 @@ class PortConnection {
     std::string from_port_;
     std::vector<Element> to_port_;
 };
+
+// the template of 13.7 with accessors
+struct TypedConnection {
+    const std::string& port_name() const;
+    const Element& ref() const;
+};
+
+template <int N>
+using Rank = ucm_cts::detail::Rank<N>;
+static_assert(std::is_same<decltype(ucm_cts::detail::port_of(TypedConnection(), Rank<3>())), std::string>::value &&
+                  std::is_same<decltype(ucm_cts::detail::references_of(TypedConnection(), Rank<3>())),
+                               const Element&>::value,
+              "its accessors are found");
 
 // without a constructor of all fields
 class Property {
