@@ -49,12 +49,12 @@ class Monitor:
         """What the properties say about ``trace``, which may break off anywhere, and is read event by event.
 
         Where two operations overlap, because one of them took too long, reading ends: it is open which of them an event belongs to.
+        Findings name what they are about, and what caused them, only if ``trace`` can be read again; a stream takes no memory.
         """
         features = features_of(scenario)
         reader = _TraceReader(self, self._table_for(features), scenario, features)
         interactions = reader.runtime.interactions
         interacting = "interactions" in features
-        trace = trace if isinstance(trace, tuple | list) else tuple(trace)
         for event in trace:
             if _TAKE[type(event)](reader, event):
                 break
@@ -62,9 +62,9 @@ class Monitor:
                 interactions.latest = event.t
         reader.close()
         findings = reader.verdicts.findings
-        if findings:
+        if findings and isinstance(trace, tuple | list):
             findings[:] = map(Namer(scenario, trace).named, findings)
-        if len(findings) > 1:
+        if len(findings) > 1 and isinstance(trace, tuple | list):
             findings[:] = Causes(scenario, trace, reader.runtime.bodies).linked(findings)
         return reader.verdicts
 

@@ -6,12 +6,13 @@ shows what is left of the framework.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
+from ucm_cts.adapters.contract.traits import bound_by, used_by
 from ucm_cts.harness.purposes.provocations.dimensions import Cell
 
 _GATE, _SECOND = "inside", "second box"
@@ -55,7 +56,7 @@ class Application:
 
     def scenario(self) -> Scenario:
         """Set up, operate, see what is left."""
-        steps = (*self._set_up(), *self._operate(), *self._complete(), *self._afterwards())
+        steps = _with_what_is_there((*self._set_up(), *self._operate(), *self._complete(), *self._afterwards()))
         return Scenario(self.components, steps, _PATIENCE)
 
     # the way to the entrance
@@ -231,6 +232,17 @@ class Application:
                 return (s.Destroy(),)
             case _:
                 return (*self._another(s.MANAGER), s.GetComponents())
+
+
+def _with_what_is_there(steps: Iterable[Step]) -> tuple[Step, ...]:
+    """``steps`` without those that need what none of them has made before, such as a connection."""
+    there = {s.MANAGER, s.NIL, s.UNKNOWN}
+    kept = []
+    for step in steps:
+        if there.issuperset(used_by(step)):
+            there.update(bound_by(step))
+            kept.append(step)
+    return tuple(kept)
 
 
 def _reference(name: str) -> str:

@@ -44,7 +44,7 @@ def plain(name: str, trace: Trace) -> list[Any]:
         elif isinstance(event, Siblings):
             event = msgspec.structs.replace(event, ids=tuple(map(same, event.ids)))
         fields = msgspec.to_builtins(event)
-        for own in ("n", "t", "thread", "detail"):
+        for own in ("n", "t", "thread", "detail", "calendar"):
             fields.pop(own, None)
         events.append(fields)
     if any(step.thread for step in scenario.steps):
