@@ -171,6 +171,19 @@ class OperationInProgress:
             return []
         return [c for c in self.by_body.get(member.body, ()) if c.hook == hook]
 
+    def not_undone(self, member: Member) -> tuple[str, ...]:
+        """The ports of ``member`` whose connections stood, and whose end on_disconnect has not reported so far."""
+        left = [*member.not_undone] or [connection.port for connection in member.live_connections()]
+        for callback in self.received(member, "on_disconnect") if member.declaration.connectable else ():
+            if left:
+                left.remove(callback.port if callback.port in left else left[0])  # a wrong name is another matter
+        return tuple(left) if member.declaration.connectable and not member.declaration.fragment else ()
+
+    def not_shut_down(self, member: Member) -> bool:
+        """Was ``member`` operational, and has not received on_shutdown so far?"""
+        was_operational = member.not_shut_down or (member.operational and not member.suspended)
+        return was_operational and member.phase == "on_startup"
+
 
 Ongoing = OperationInProgress | None
 """The operation in progress, if there is one."""

@@ -217,6 +217,9 @@ def _container_removed(runtime: Runtime, ongoing: OperationInProgress, step: s.R
         container.removed = True
         container.doubtful = False
     elif ongoing.callbacks:
+        for member in container.live_members():
+            member.not_undone = ongoing.not_undone(member)
+            member.not_shut_down = ongoing.not_shut_down(member)
         _perhaps_removed(runtime, container.live_members())
         was_started = container.started
         container.suspend()

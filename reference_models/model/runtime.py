@@ -78,6 +78,8 @@ class Member:
     ``late``: it was added when its container was, or may have been, started.
     ``phase``: on_startup or on_shutdown, whichever came last; empty before both.
     ``told_of_removal``: on_remove has come.
+    ``not_undone``, ``not_shut_down``: what a removal of its container that failed has left out: on_disconnect of these
+    ports, and on_shutdown.
     """
 
     name: str
@@ -102,6 +104,8 @@ class Member:
     late: bool = False
     phase: str = ""
     told_of_removal: bool = False
+    not_undone: tuple[str, ...] = ()
+    not_shut_down: bool = False
 
     def raises(self, *hooks: Hook) -> bool:
         """Does the plan make this body raise at one of ``hooks``?"""

@@ -16,7 +16,7 @@ from ucm_cts.reference_models.model.runtime import Container, Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _STARTS_ALL, _STOPS_ALL = "R-11.2.2.1-11", "R-11.2.2.1-12"
-_REMOVES_ALL, _DESTROYS_ALL = "R-11.2.2.2-04", "R-11.2.2.2-05"
+_REMOVES_ALL, _DESTROYS_ALL, _DISCONNECTS_ALL = "R-11.2.2.2-04", "R-11.2.2.2-05", "R-11.2.1.3-05"
 
 
 @property_at("unsettled", _STARTS_ALL, _STOPS_ALL, at=("start", "stop"))
@@ -34,10 +34,10 @@ def nobody_left_behind(check: Property, runtime: ObservedRuntime, ongoing: Opera
     return _left(check, ongoing, container, left, hook, _STARTS_ALL if starts else _STOPS_ALL)
 
 
-@property_at("unsettled", _REMOVES_ALL, _DESTROYS_ALL, at=("remove_container", "destroy"))
+@property_at("unsettled", _REMOVES_ALL, _DESTROYS_ALL, _DISCONNECTS_ALL, at=("remove_container", "destroy"))
 def nobody_dropped(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """When remove_container or destroy returned although a body raised, or a container is gone after a remove_container that
-    failed, each sound member has received on_remove.
+    failed, each sound member was shut down, was told of each connection that was undone, and has received on_remove.
     """
     step = ongoing.step
     if isinstance(step, s.RemoveContainer):
@@ -52,10 +52,46 @@ def nobody_dropped(check: Property, runtime: ObservedRuntime, ongoing: Operation
         members = [m for c in runtime.containers.values() for m in c.live_members()]
     else:
         return ()
-    left = [member for member in members if member.is_sound and not member.told_of_removal]
-    requirement = _REMOVES_ALL if isinstance(step, s.RemoveContainer) else _DESTROYS_ALL
+    removes = _REMOVES_ALL if isinstance(step, s.RemoveContainer) else _DESTROYS_ALL
     container = runtime.containers.get(getattr(step, "container", ""), ongoing.container)
-    return _left(check, ongoing, container, left, "on_remove", requirement) if left else ()
+    sound = [member for member in members if member.is_sound]
+    for hook, requirement, is_due in (
+        ("on_shutdown", removes, ongoing.not_shut_down),
+        ("on_disconnect", _DISCONNECTS_ALL, ongoing.not_undone),
+        ("on_remove", removes, _not_removed),
+    ):
+        left = [member for member in sound if is_due(member)]
+        if left:
+            return _left(check, ongoing, container, left, hook, requirement)
+    return ()
+
+
+def _not_removed(member: Member) -> bool:
+    return not member.told_of_removal
+
+
+@property_at("unsettled", "R-11.2.3-08", at=("connect",))
+def port_is_free(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
+    """A port is connected again when its connection is certainly undone, although on_disconnect raised meanwhile."""
+    member, step, end = ongoing.subject, ongoing.step, ongoing.end
+    if member is None or not isinstance(step, s.Connect) or ongoing.container.started is not False:
+        return ()
+    _, provider = runtime.reference(step.to)
+    earlier = [connection for connection in member.connections if connection.port == step.port]
+    is_free = bool(earlier) and all(connection.live is False for connection in earlier)
+    if not is_free or not member.raises("on_disconnect") or member.raises("on_connect") or member.doubtful:
+        return ()
+    known = [c for c in earlier if c.provider is provider and c.provided == runtime.ports.get(step.to)]
+    if provider is None or provider.gone or provider.doubtful or not known:  # it was good enough before
+        return ()
+    if not isinstance(end, Raise):
+        return check.kept()
+    return check.refused(
+        "connect",
+        end,
+        expected=f"{step.port} of '{member.lane}', whose connection has been undone, can be connected again",
+        cause="not free",
+    )
 
 
 def _left(

@@ -47,7 +47,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         return
     enter, exit_ = own[0]
     result = exit_.value if exit_ is not None else None
-    if enter.port == port and enter.value == call.value and end.value == result and len(own) == 1:
+    if enter.port == port and enter.value == call.value and exit_ and end.value == result and len(own) == 1:
         yield check.kept(_OPERATIONAL)
         yield check.kept()
         yield check.kept(_OWN_ELEMENT)
@@ -59,6 +59,8 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         yield _violate(check, _OWN_ELEMENT, "another port", expected, observed, call.n, end.n, member)
         return
     observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
+    if exit_ is None:
+        observed = f"the caller got {end.value} before the body had returned"
     if len(own) > 1:
         observed = f"the body was entered {len(own)} times"
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
@@ -80,12 +82,14 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
     if len(call.entries) == 1:  # the common case: it reached one body, the right one
         enter, exit_ = call.entries[0]
         came_to = enter.component, enter.instance, enter.port
-        if enter.value == wanted and came_to in targets and (exit_ is None or exit_.value == reply.value):
+        if enter.value == wanted and came_to in targets and exit_ is not None and exit_.value == reply.value:
             return check.kept(requirement)
     reached = [(e, x) for e, x in call.entries if e.value == wanted and (e.component, e.instance, e.port) in targets]
-    came_back = [x for _, x in reached if x is None or x.value == reply.value]
+    came_back = [x for _, x in reached if x is not None and x.value == reply.value]
     if len(reached) == 1 and came_back:
         return check.kept(requirement)
+    if len(reached) == 1 and reached[0][1] is None and not all(provider.serving for provider in providers):
+        return ()  # what becomes of a call in progress at stop is open (stop-inflight)
     names = " or ".join(sorted(p.lane for p in providers))
     expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
     if not reached:
@@ -93,8 +97,11 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
         observed = f"it reached {where}"
     elif not came_back:
         left = reached[0][1]
+        got = "nothing" if reply.value is None else reply.value
         gave = left.value if left is not None and left.value is not None else "nothing"
-        observed = f"the body returned {gave}, the caller got {'nothing' if reply.value is None else reply.value}"
+        observed = f"the body returned {gave}, the caller got {got}"
+        if left is None:
+            observed = f"the caller got {got} before the body had returned"
     else:
         observed = f"it was carried out {len(reached)} times"
     cause = "target" if not reached else "result"

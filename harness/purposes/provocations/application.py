@@ -159,6 +159,8 @@ class Application:
                 return (*self._operation(2), s.GetComponents(home))
             case "undo and redo":
                 return (*self._undone(), *self._operation(2), s.GetComponents(home))
+            case "the same again and redo":
+                return (*self._operation(2), *self._undone(), *self._operation(3), s.GetComponents(home))
             case "start and stop":
                 return (s.Start(home), s.Stop(home), s.Start(home), s.Stop(home), s.GetComponents(home))
             case "complete it":
