@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Raise, Reference, Return
+from ucm_cts.adapters.contract.trace import MaybeReference, Raise, Reference, Return
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime, raises
+from ucm_cts.reference_models.model.start_effects import forget_start, take_over_start, take_over_stop
 
 
 def apply(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
@@ -141,15 +142,10 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
         if ongoing.judged and not member.suspended:  # late connections are taken at once
             member.operational = True
             member.startups += 1
-            _forget_start(member)
+            forget_start(member)
             ongoing.container.startup_order.append(member)
         else:
             member.suspended = True
-
-
-def _forget_start(member: Member) -> None:
-    if member in member.container.startup_order:
-        member.container.startup_order.remove(member)
 
 
 def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Disconnect, end: Result) -> None:
@@ -167,7 +163,7 @@ def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Discon
     client = connection.client
     if ongoing.received(client, "on_shutdown"):  # it is not left half-connected
         client.operational = False
-        _forget_start(client)
+        forget_start(client)
     if any(c.live is None and c.port == connection.port for c in client.connections):
         client.suspended = True
 
@@ -260,7 +256,7 @@ def _removed(runtime: Runtime, ongoing: OperationInProgress, removed: Sequence[M
         client.suspended = client.suspended or any(connection.live is None for connection in used)
     for member in removed:
         member.operational = False
-        _forget_start(member)
+        forget_start(member)
         for connection in member.connections:
             connection.live = False
         runtime.let_go(member)
@@ -276,108 +272,6 @@ def _still_stands(connection: Connection) -> bool | None:
         return None
     others = any(not taker.gone for taker in connection.takers)
     return True if others or client.declaration.connectable or client.operational else None
-
-
-def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end: Result) -> None:
-    returned = isinstance(end, Return)
-    container = ongoing.container
-    everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if ongoing.callbacks else []
-    reached = [m for m in everywhere if ongoing.received(m, "on_startup")]
-    own = [m for m in reached if m.container is container]
-    _reached_unseen(runtime, container)
-    if not returned:
-        failing = any(m.raises("on_startup") for m in container.live_members())
-        half_way = any(not ongoing.received(m, "on_shutdown") for m in own)
-        unseen = ongoing.forgiving and all(m.doubtful for m in container.live_members())
-        unclear = container.started is not False or failing or half_way or unseen
-        if unclear and (container.started is not True or own):
-            container.suspend()
-            container.failed = ongoing.step_number, ongoing.call, end.n
-        for member in reached:
-            if member.container is not container:
-                member.container.suspend()
-        return
-    if container.started is not True:
-        container.startup_order = []
-    for member in container.live_members():
-        for callback in ongoing.received(member, "on_startup"):
-            _resolve(member, callback)
-        unclear = member.lingering or member.doubtful or member.instance is None
-        member.suspended = unclear or member.raises("on_startup")
-    order = {c.body: n for n, c in enumerate(ongoing.callbacks) if c.hook == "on_startup"}
-    for member in sorted(reached, key=lambda m: order[m.body]):
-        member.operational = True
-        member.startups += 1
-        if member not in member.container.startup_order:
-            member.container.startup_order.append(member)
-        if member.container is not container:
-            member.container.started = True
-    container.started = True
-
-
-def _stopped(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: Result) -> None:
-    returned = isinstance(end, Return)
-    container = ongoing.container
-    _reached_unseen(runtime, container)
-    for other in runtime.containers.values() if ongoing.callbacks else ():
-        for member in other.live_members():
-            if ongoing.received(member, "on_shutdown"):
-                member.operational = False
-                if not returned:
-                    other.suspend()
-                elif other is not container:
-                    other.started = False
-    if not returned:
-        if container.started is not False:
-            container.suspend()
-            container.failed = ongoing.step_number, ongoing.call, end.n
-        return
-    container.started = False
-    container.startup_order = []
-    for member in container.live_members():
-        member.operational = member.lingering = False
-        member.suspended = member.doubtful or _unsure(member)
-
-
-def _unsure(member: Member) -> bool:
-    """Is it open whether the instance is configured?"""
-    doubtful = [c.port for c in member.connections if c.live is None]
-    open_ports = set(doubtful) - {c.port for c in member.live_connections()} if doubtful else doubtful
-    return bool(open_ports) or member.instance is None or member.raises("on_init", "set_container_interface")
-
-
-def handed_over(startup: Enter) -> dict[str, list[MaybeReference]]:
-    """The non-null references of ``on_startup`` by port element name; several entries of one name are one."""
-    by_port: dict[str, list[MaybeReference]] = {}
-    for dependency in startup.dependencies or ():
-        by_port.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
-    return by_port
-
-
-def _resolve(member: Member, startup: Enter) -> None:
-    """What on_startup handed over shows which of the doubtful connections stand."""
-    given = handed_over(startup)
-    for connection in member.connections:
-        if connection.live is not None:
-            continue
-        of_port = [c for c in member.connections if c.port == connection.port and c.live is not False]
-        references = given.get(connection.port, [])
-        if len(references) == len(of_port):
-            connection.live = True
-        elif not references:
-            connection.live = False
-        elif all(isinstance(r, Reference) for r in (*references, *(c.reference for c in of_port))):
-            twins = [c for c in of_port if c.reference == connection.reference]
-            if len(twins) == 1 or connection.reference not in references:
-                connection.live = connection.reference in references
-
-
-def _reached_unseen(runtime: Runtime, container: Container) -> None:
-    """The manager's start or stop may have reached sub-containers without members, where no callback shows it."""
-    if len(runtime.containers) > 1 and container is runtime.containers[s.MANAGER]:
-        for other in runtime.containers.values():
-            if other is not container and not other.live_members():
-                other.started = None
 
 
 def _has_uncertain_connection(member: Member) -> bool:
@@ -408,8 +302,8 @@ _TAKEN_OVER: dict[str, Callable[[Runtime, OperationInProgress, Any, Result], Non
     "get_port_element": _found,
     "connect": _connected,
     "disconnect": _disconnected,
-    "start": _started,
-    "stop": _stopped,
+    "start": take_over_start,
+    "stop": take_over_stop,
     "get_components": lambda runtime, ongoing, step, end: None,
     "create_container": _container_created,
     "remove_container": _container_removed,

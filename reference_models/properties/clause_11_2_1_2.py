@@ -7,9 +7,9 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation_effects import handed_over
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
+from ucm_cts.reference_models.model.start_effects import handed_over
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _RESOLVED, _HANDED_OVER, _AGAIN = "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10"

@@ -43,7 +43,7 @@ class Application:
         self.pause = pause
         self.home = "box" if cell.place == "box" else s.MANAGER
         plan = {cell.entrance.hook: cell.action.plan} if cell.entrance.hook else {}
-        sound = Declaration(("in.api",), ("out.api",), {"size": "12"}, True, cell.kind == "fragment")
+        sound = Declaration(("in.api",), ("out.api",), {"label": "12", "level": "low"}, True, cell.kind == "fragment")
         self.components = {
             _SERVER: Declaration(("in.api",)),
             _SUBJECT: msgspec.structs.replace(sound, plan=plan),

@@ -200,7 +200,8 @@ def _sized(size: int) -> Scenario:
 
 
 def _with_value(value: str) -> Scenario:
-    return Scenario({"server": Declaration(attributes={"name": value})}, (s.AddComponent("server"), s.GetComponents()))
+    server = Declaration(("in.api",), attributes={"label": value, "level": "low"})
+    return Scenario({"server": server}, (s.AddComponent("server"), s.GetComponents()))
 
 
 _COUNTED: dict[str, tuple[Callable[[int], Iterator[Step]], tuple[str, ...]]] = {

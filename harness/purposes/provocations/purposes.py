@@ -38,27 +38,35 @@ def duration_purposes() -> list[TestPurpose]:
         text = f"A body takes its time in {entrance.name}."
         exercises = entrance.exercises
         purposes.append(TestPurpose(name, exercises[0].split("-")[1], text, exercises, scenarios))
-    slow = tuple((f"duration/call of a peer/{ms} ms", _slow_peer(ms)) for ms in durations)
-    text = "A component that another one calls takes its time."
-    return [*purposes, TestPurpose("duration/call of a peer", "11.1.3", text, ("R-11.1.3-01",), slow)]
+    slow = tuple(
+        (f"duration/call of a {kind}/{ms} ms, {home}", _slow_peer(ms, home, kind == "fragment"))
+        for ms in durations
+        for home in dimensions.places
+        for kind in dimensions.kinds
+    )
+    text = "A component or fragment that another one calls takes its time."
+    return [*purposes, TestPurpose("duration/call of a peer", "11.1.3", text, ("R-11.1.3-01", "R-11.1.2-02"), slow)]
 
 
-def _slow_peer(milliseconds: int) -> Scenario:
+def _slow_peer(milliseconds: int, home: str, is_fragment: bool) -> Scenario:
     components = {
-        "server": Declaration(("in.api",), plan={"exchange": (s.HoldAtGate("inside"),)}),
-        "client": Declaration(("in.api",), ("out.api",), plan={"exchange": (s.CallPort("out.api", 7),)}),
+        "server": Declaration(("in.api",), fragment=is_fragment, plan={"exchange": (s.HoldAtGate("inside"),)}),
+        "client": Declaration(
+            ("in.api",), ("out.api",), fragment=is_fragment, plan={"exchange": (s.CallPort("out.api", 7),)}
+        ),
     }
     steps: tuple[Step, ...] = (
-        *(s.AddComponent(name) for name in components),
-        *(s.GetPortElement(name, "in.api", f"to {name}") for name in components),
-        s.Connect("client", "out.api", "to server", "link"),
-        s.Start(),
+        *((s.CreateContainer(home),) if home != s.MANAGER else ()),
+        *(s.AddComponent(name, home) for name in components),
+        *(s.GetPortElement(name, "in.api", f"to {name}", home) for name in components),
+        s.Connect("client", "out.api", "to server", "link", home),
+        s.Start(home),
         s.Invoke("to client", 1, thread="caller"),
         s.ReachGate("inside"),
         s.Pause(milliseconds),
         s.OpenGate("inside"),
         s.Join("caller"),
-        s.Stop(),
+        s.Stop(home),
     )
     return Scenario(components, steps)
 

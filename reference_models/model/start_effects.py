@@ -1,0 +1,118 @@
+"""After a start or stop: the model takes over which members are operational, and with which connections."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Return
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import Container, Member, Runtime
+
+
+def forget_start(member: Member) -> None:
+    """A stop does not shut it down any more."""
+    if member in member.container.startup_order:
+        member.container.startup_order.remove(member)
+
+
+def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end: Result) -> None:
+    """A start ended."""
+    returned = isinstance(end, Return)
+    container = ongoing.container
+    everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if ongoing.callbacks else []
+    reached = [m for m in everywhere if ongoing.received(m, "on_startup")]
+    own = [m for m in reached if m.container is container]
+    _reached_unseen(runtime, container)
+    if not returned:
+        failing = any(m.raises("on_startup") for m in container.live_members())
+        half_way = any(not ongoing.received(m, "on_shutdown") for m in own)
+        unseen = ongoing.forgiving and all(m.doubtful for m in container.live_members())
+        unclear = container.started is not False or failing or half_way or unseen
+        if unclear and (container.started is not True or own):
+            container.suspend()
+            container.failed = ongoing.step_number, ongoing.call, end.n
+        for member in reached:
+            if member.container is not container:
+                member.container.suspend()
+        return
+    if container.started is not True:
+        container.startup_order = []
+    for member in container.live_members():
+        for callback in ongoing.received(member, "on_startup"):
+            _resolve(member, callback)
+        unclear = member.lingering or member.doubtful or member.instance is None
+        member.suspended = unclear or member.raises("on_startup")
+    order = {c.body: n for n, c in enumerate(ongoing.callbacks) if c.hook == "on_startup"}
+    for member in sorted(reached, key=lambda m: order[m.body]):
+        member.operational = True
+        member.startups += 1
+        if member not in member.container.startup_order:
+            member.container.startup_order.append(member)
+        if member.container is not container:
+            member.container.started = True
+    container.started = True
+
+
+def take_over_stop(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: Result) -> None:
+    """A stop ended."""
+    returned = isinstance(end, Return)
+    container = ongoing.container
+    _reached_unseen(runtime, container)
+    for other in runtime.containers.values() if ongoing.callbacks else ():
+        for member in other.live_members():
+            if ongoing.received(member, "on_shutdown"):
+                member.operational = False
+                if not returned:
+                    other.suspend()
+                elif other is not container:
+                    other.started = False
+    if not returned:
+        if container.started is not False:
+            container.suspend()
+            container.failed = ongoing.step_number, ongoing.call, end.n
+        return
+    container.started = False
+    container.startup_order = []
+    for member in container.live_members():
+        member.operational = member.lingering = False
+        member.suspended = member.doubtful or _unsure(member)
+
+
+def _unsure(member: Member) -> bool:
+    """Is it open whether the instance is configured?"""
+    doubtful = [c.port for c in member.connections if c.live is None]
+    open_ports = set(doubtful) - {c.port for c in member.live_connections()} if doubtful else doubtful
+    return bool(open_ports) or member.instance is None or member.raises("on_init", "set_container_interface")
+
+
+def handed_over(startup: Enter) -> dict[str, list[MaybeReference]]:
+    """The non-null references of ``on_startup`` by port element name; several entries of one name are one."""
+    by_port: dict[str, list[MaybeReference]] = {}
+    for dependency in startup.dependencies or ():
+        by_port.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
+    return by_port
+
+
+def _resolve(member: Member, startup: Enter) -> None:
+    """What on_startup handed over shows which of the doubtful connections stand."""
+    given = handed_over(startup)
+    for connection in member.connections:
+        if connection.live is not None:
+            continue
+        of_port = [c for c in member.connections if c.port == connection.port and c.live is not False]
+        references = given.get(connection.port, [])
+        if len(references) == len(of_port):
+            connection.live = True
+        elif not references:
+            connection.live = False
+        elif all(isinstance(r, Reference) for r in (*references, *(c.reference for c in of_port))):
+            twins = [c for c in of_port if c.reference == connection.reference]
+            if len(twins) == 1 or connection.reference not in references:
+                connection.live = connection.reference in references
+
+
+def _reached_unseen(runtime: Runtime, container: Container) -> None:
+    """The manager's start or stop may have reached sub-containers without members, where no callback shows it."""
+    if len(runtime.containers) > 1 and container is runtime.containers[s.MANAGER]:
+        for other in runtime.containers.values():
+            if other is not container and not other.live_members():
+                other.started = None
