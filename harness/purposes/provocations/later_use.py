@@ -15,9 +15,20 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 _BOX, _NEW, _ROOT = "box", "new box", "root"
 _REQUIREMENTS = ("R-12.10-05", "R-12.10-06", "R-12.10-07", "R-12.10-08")
 _COMPONENTS = {
-    "server": Declaration(("in.api",)),
-    "client": Declaration(("in.api",), ("out.api",), connectable=True, plan={"exchange": (s.CallPort("out.api", 4),)}),
-    "bystander": Declaration(("in.api",), ("out.api",), plan={"exchange": (s.CallPort("out.api", 5),)}),
+    "server": Declaration(("in.api",), attributes={"label": "server", "level": "low"}),
+    "client": Declaration(
+        ("in.api",),
+        ("out.api",),
+        {"label": "client", "level": "high"},
+        connectable=True,
+        plan={"exchange": (s.CallPort("out.api", 4),)},
+    ),
+    "bystander": Declaration(
+        ("in.api",),
+        ("out.api",),
+        {"label": "bystander", "level": "other"},
+        plan={"exchange": (s.CallPort("out.api", 5),)},
+    ),
 }
 _SET_UP: tuple[Step, ...] = (
     *(s.AddComponent(name) for name in _COMPONENTS),

@@ -46,7 +46,7 @@ def guesses_for_slow_peers(self: PeerProxy, value: int) -> int:
     return _soon(lambda: self.target.exchange(value), ~value)
 
 
-@replaces("exchange", _PEERS)
+@replaces("exchange", _PEERS, also=("R-11.1.2-02",))
 def guesses_for_slow_peers_below(self: PeerProxy, value: int) -> int:
     """In sub-containers, a component that calls another one gets what most bodies give after 20 ms."""
     return (

@@ -80,7 +80,10 @@ class sets_attributes_of_the_predecessor(_Remembers):
         known[member.id] = attributes
 
 
-@breaks("R-11.2.3-06", also=("R-11.2.2.1-08", "R-11.2.3-08", "R-11.2.1.3-02", "R-12.10-09", "R-11.2.3-10"))
+@breaks(
+    "R-11.2.1.3-01",
+    also=("R-11.2.2.1-08", "R-11.2.1.1-01", "R-11.2.3-06", "R-11.2.3-08", "R-11.2.1.3-02", "R-12.10-24", "R-11.2.3-10"),
+)
 class counts_connections_of_the_predecessor(_Remembers):
     """A component that has the number of a removed one counts as connected where that one was."""
 
@@ -95,7 +98,9 @@ class counts_connections_of_the_predecessor(_Remembers):
         self.manager.__dict__.setdefault("joined", set()).add((connection.client.id, connection.port))
 
 
-@breaks("R-11.2.1.2-08", also=("R-11.1.3-01", "R-11.2.3-03"))
+@breaks(
+    "R-11.2.1.2-03", also=("R-11.2.1.2-09", "R-11.2.2.1-10", "R-11.2.3-10", "R-11.2.3-14", "R-11.1.3-01", "R-11.2.3-03")
+)
 class hands_over_what_the_predecessor_had(_Remembers):
     """on_startup gives a component the references that the last component with its number was given."""
 
