@@ -57,6 +57,7 @@ class Monitor:
         interacting = "interactions" in features
         for event in trace:
             if _TAKE[type(event)](reader, event):
+                reader.check("overlapped", trace)
                 break
             if interacting and type(event) not in _NOTHING_HAPPENS:
                 interactions.latest = event.t

@@ -16,6 +16,7 @@ from ucm_cts.harness.purposes.derived.services import service_purposes
 from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.provocations.boundaries import boundary_purposes
+from ucm_cts.harness.purposes.provocations.container_contention import container_contention_purposes
 from ucm_cts.harness.purposes.provocations.contention import contention_purposes, service_contention_purposes
 from ucm_cts.harness.purposes.provocations.core_boundaries import core_boundary_purposes
 from ucm_cts.harness.purposes.provocations.later_use import later_use_purposes
@@ -88,6 +89,7 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         *boundary_purposes(),
         *later_use_purposes(),
         *contention_purposes(),
+        *container_contention_purposes(),
         *combined,
     )
 

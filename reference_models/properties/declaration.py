@@ -12,7 +12,7 @@ from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.designation import error_name
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress
 
-_Always = Literal["ended", "unsettled", "entered", "unclear", "called", "answered", "replied", "noted"]
+_Always = Literal["ended", "unsettled", "entered", "unclear", "called", "answered", "replied", "noted", "overlapped"]
 _WithInteractions = Literal[
     "began",
     "over",
@@ -34,6 +34,7 @@ Moment = Literal[_Always, _WithInteractions]
 ``entered``: a body was entered by a callback; ``unclear``: the same, if no property was violated so far.
 ``called``: a body was entered by a business call.
 ``answered``: a stimulus of the test came back; ``replied``: a body's own call did; ``noted``: a fragment's query did.
+``overlapped``: two operations of containers overlap, which ends reading.
 ``began``, ``over``: an execution began or ended.
 ``served``: a call that had to wait came back, or never did.
 ``waited``: a wait of the scenario ran out of patience.

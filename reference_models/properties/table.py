@@ -21,6 +21,7 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_11_2_1,
     clause_11_2_1_2,
     clause_11_2_2,
+    clause_11_2_2_at_once,
     clause_11_2_3,
     clause_11_2_3_after_failures,
     clause_11_2_3_calls,

@@ -66,6 +66,7 @@ MODULES = {
     ),
     "dimensions": (
         "aftermath",
+        "at_once",
         "callers",
         "counts",
         "counts_of_connectors",

@@ -56,7 +56,8 @@ def boundary_purposes() -> list[TestPurpose]:
     ]
     sizes = tuple((f"boundary/attribute of {size} characters", _sized(size)) for size in boundaries.sizes)
     sizes += tuple((f"boundary/attribute {text!r}", _with_value(text)) for text in boundaries.texts)
-    text = "The value of an attribute has characters without number: none, one, and so many that buffers end."
+    sizes += tuple((f"boundary/{count} attributes", _with_attributes(count)) for count in boundaries.counts)
+    text = "There are none, one and many attributes; the value of one has characters without number: none, one, and so many that buffers end."
     return [*purposes, TestPurpose("boundary/attribute values", "11.2.1.2", text, ("R-11.2.1.2-05",), sizes)]
 
 
@@ -202,6 +203,12 @@ def _sized(size: int) -> Scenario:
 def _with_value(value: str) -> Scenario:
     server = Declaration(("in.api",), attributes={"label": value, "level": "low"})
     return Scenario({"server": server}, (s.AddComponent("server"), s.GetComponents()))
+
+
+def _with_attributes(count: int) -> Scenario:
+    attributes = {f"a{number}": f"value {number}" for number in range(count)}
+    steps = (s.AddComponent("server"), s.AddComponent("server", bind="another one"), s.GetComponents())
+    return Scenario({"server": Declaration(attributes=attributes)}, steps)
 
 
 _COUNTED: dict[str, tuple[Callable[[int], Iterator[Step]], tuple[str, ...]]] = {

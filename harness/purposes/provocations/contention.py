@@ -40,9 +40,14 @@ class Contention(Value, frozen=True):
     uses: int
 
 
+def load_contention() -> Contention:
+    """The table of the suite."""
+    return read(SUITE / "contention.yaml", Contention)
+
+
 def contention_purposes() -> list[TestPurpose]:
     """Calls between components, which profile container has, too."""
-    table = read(SUITE / "contention.yaml", Contention)
+    table = load_contention()
     scenarios = tuple(
         (f"contention/calls of {clients} components", _calls(clients, table.uses)) for clients in table.callers
     )
@@ -52,7 +57,7 @@ def contention_purposes() -> list[TestPurpose]:
 
 def service_contention_purposes() -> list[TestPurpose]:
     """What the core provides: clock, log and both connectors."""
-    table = read(SUITE / "contention.yaml", Contention)
+    table = load_contention()
     purposes = []
     for what, (clause, requirements, make) in {
         "clock": ("10.1.4.1", ("R-10.1.4.1-06", "R-10.1.4.1-08", "R-10.1.4.1-09", "R-10.1.4.1-10"), _clocks),
