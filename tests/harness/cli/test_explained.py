@@ -96,7 +96,8 @@ def test_a_requirement_shows_its_cells_and_the_number_of_scenarios() -> None:
         for cell in load_cells()
         if (cell.entrance.name, cell.action.name) == ("on_remove by remove_component after stop", "raises")
     ]
-    assert f"  on_remove by remove_component after stop:\n    raises: {len(raised)} scenarios, each of {len(load_dimensions().aftermaths)} aft" in text
+    each = f"each of {len(load_dimensions().aftermaths)} aft"
+    assert f"  on_remove by remove_component after stop:\n    raises: {len(raised)} scenarios, {each}" in text
     assert "calls its peer: none. A body has its references from on_startup to on_shutdown only.\n" in text
     assert "What was refused cannot be undone." in text
     assert "provocation/" not in text.partition("Cells of provocation")[0]
