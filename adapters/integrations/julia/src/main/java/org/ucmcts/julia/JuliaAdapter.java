@@ -125,10 +125,9 @@ public final class JuliaAdapter extends Adapter<Component> {
 
     @Override
     public void removeContainer(Component manager, Component container) throws Exception {
-        try {
-            Fractal.getContentController(runtime).removeFcSubComponent(container);
-        } catch (IllegalContentException error) {
-            throw new NotFound(error);
+        ContentController content = Fractal.getContentController(runtime);
+        if (container != null && !Arrays.asList(content.getFcSubComponents()).contains(container)) {
+            throw new NotFound("no such sub-container");
         }
         stop(container);
         List<Integer> members = getComponents(container);
@@ -140,6 +139,7 @@ public final class JuliaAdapter extends Adapter<Component> {
         for (int member : members) {
             removeComponent(container, member);
         }
+        fractal(() -> content.removeFcSubComponent(container));
     }
 
     @Override
