@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import glob
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.comparison import compare as lay_side_by_side
 from ucm_cts.harness.report.comparison_page import to_html
 from ucm_cts.harness.report.order import count
-from ucm_cts.harness.report.write import prepare_folder, write_whole
+from ucm_cts.harness.report.out_folder import OutFolder
 from ucm_cts.harness.results.foreign import one_line
 
 
@@ -23,13 +24,14 @@ from ucm_cts.harness.results.foreign import one_line
 def compare(reports: Sequence[Path], out: Path) -> None:
     """Lay the reports in the files REPORT, each a report.json, side by side, requirement by requirement.
 
-    The page needs nothing else, and leads to each report.html beside its report.json.
+    The page needs nothing else, and leads to each report.html beside its report.json. A file that no earlier command wrote, or
+    that was changed since, is never replaced.
     """
     console = Output()
     comparison = lay_side_by_side(reports)
-    prepare_folder(out.parent)
     try:
-        write_whole(out, to_html(comparison, out.parent).encode())
+        with OutFolder(out.parent, (glob.escape(out.name),)) as folder:
+            folder.save({out.name: to_html(comparison, out.parent).encode()})
     except OSError as error:
         raise WrongUse(f"'{out}' cannot be written: {error.strerror}; choose another --out") from None
     for column in comparison.columns:

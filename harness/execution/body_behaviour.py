@@ -13,13 +13,15 @@ _NONE_HELD: dict[str, int] = {}
 
 
 class Body:
-    """An instance of a component; ``held`` is the number of references that it holds for each port element."""
+    """An instance of a component; ``held`` are the numbers of references of each port element that it has held, one after the
+    other: now the last ones.
+    """
 
     __slots__ = ("declaration", "held", "plans")
 
     def __init__(self, declaration: Declaration) -> None:
         self.declaration = declaration
-        self.held = _NONE_HELD
+        self.held = [_NONE_HELD]
         self.plans: dict[str, Plan] = {}
 
     def plan(self, hook: s.Hook) -> Plan:
@@ -31,24 +33,35 @@ class Body:
 
     def be_given(self, dependencies: tuple[t.Dependency, ...]) -> None:
         """It gets the references of its port elements."""
-        self.held = {}
+        held: dict[str, int] = {}
         for dependency in dependencies:
             given = sum(reference is not None for reference in dependency.references)
-            self.held[dependency.port] = self.held.get(dependency.port, 0) + given
+            held[dependency.port] = held.get(dependency.port, 0) + given
+        self.held.append(held)
+
+    def held_since(self, moment: int) -> tuple[dict[str, int], ...]:
+        """What it has held since then, each once."""
+        if moment == len(self.held) - 1:
+            return (self.held[-1],)
+        found: list[dict[str, int]] = []
+        for held in self.held[moment:]:
+            if held not in found:
+                found.append(held)
+        return tuple(found)
 
 
 class Frame:
     """An activity on a thread: an operation, a call that a body makes, or a call of ``body``. ``acts`` are the actions of that
-    body so far, and ``held`` the references that it held at the beginning.
+    body so far, and ``began`` is the place in its ``held`` at the beginning.
     """
 
-    __slots__ = ("acts", "body", "event", "held")
+    __slots__ = ("acts", "began", "body", "event")
 
     def __init__(self, event: t.Call | t.Enter | t.Request, body: Body | None = None) -> None:
         self.event = event
         self.body = body
         self.acts: list[Act] = []
-        self.held = body.held if body is not None else _NONE_HELD
+        self.began = len(body.held) - 1 if body is not None else 0
 
 
 class Thread:
@@ -165,12 +178,11 @@ class BodyChecks:
             due = _due_results(plan, enter)
             if (event.results, event.exception) != due:
                 return f"{enter.method} gave {event.results!r}, its plan says {due[0]!r}"
-        if actions or acts:  # most bodies have nothing to do
-            now, before = body.held, frame.held
-            if not is_as_planned(actions, acts, (now,) if now is before else (now, before)):
-                return f"{event.component} did not act in {event.hook} as its plan says"
+        # most bodies have nothing to do
+        if (actions or acts) and not is_as_planned(actions, acts, body.held_since(frame.began)):
+            return f"{event.component} did not act in {event.hook} as its plan says"
         if event.hook == "on_shutdown":
-            body.held = _NONE_HELD
+            body.held.append(_NONE_HELD)
         if event.hook != "exchange" or event.raised or enter.value is None:
             return None
         value = ~enter.value if returned is None else returned

@@ -12,7 +12,7 @@ from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.commands.description import Command, Task
-from ucm_cts.harness.toolchains.corpus.decoration import PREFIX
+from ucm_cts.harness.toolchains.corpus.decoration import DECORATION_OF_CPP, DECORATION_OF_IDL
 from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.cpp import applicability
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
@@ -63,7 +63,13 @@ def examination_for(
     if task == "idl":
         compare = functools.partial(_compare_idl, statement.readings)
         return Generation(
-            compare, ("R-12-01", "idl_generated"), renaming, expression, models, not_applicable(statement)
+            compare,
+            ("R-12-01", "idl_generated"),
+            DECORATION_OF_IDL,
+            renaming,
+            expression,
+            models,
+            not_applicable(statement),
         )
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
@@ -73,7 +79,8 @@ def examination_for(
             f"no compiler '{compiler}' can be run; install it, or name another: compiler = [...] in [{task}]"
         )
     compare = functools.partial(_compare_cpp, standard, statement.readings, how)
-    return Generation(compare, GENERATED, renaming, expression, models, applicability.not_applicable(statement))
+    not_asked = applicability.not_applicable(statement)
+    return Generation(compare, GENERATED, DECORATION_OF_CPP, renaming, expression, models, not_asked)
 
 
 WITH_NATIVES = frozenset({"idl_natives"})
@@ -83,8 +90,6 @@ WITH_NATIVES = frozenset({"idl_natives"})
 def _asked(task: Task, statement: Statement, models: Collection[str] | None) -> Collection[str]:
     """The models that code is generated from, by name."""
     names = frozenset(mapping_models() if models is None else models)
-    if task != "idl":
-        names = frozenset(name for name in names if not name.startswith(PREFIX))
     return names if task == "idl" and statement.meets("native-types=supported") else names - WITH_NATIVES
 
 

@@ -13,7 +13,7 @@ from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, FactEvidence
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.commands.processing import Response
-from ucm_cts.harness.toolchains.corpus.decoration import PREFIX, REQUIREMENT, RULE, decorated
+from ucm_cts.harness.toolchains.corpus.decoration import PREFIX, decorated
 from ucm_cts.harness.toolchains.cpp.probes.check import HEADERS
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.renaming import Renaming
@@ -47,18 +47,21 @@ class Generation:
         self,
         compare: Compare,
         generates: tuple[str, str],
+        decoration: tuple[str, str],
         renaming: Renaming,
         expression: str = "",
         only: Collection[str] | None = None,
         not_applicable: Mapping[str, str] = {},
     ) -> None:
-        """``generates`` are the requirement, and its rule, that files can be had of a legal model at all. Of the models
+        """``generates`` are the requirement, and its rule, that files can be had of a legal model at all; ``decoration`` are those
+        that annotations and comments change nothing. Of the models
         only those of ``only``, if there is such a list, whose name holds a word of ``expression``, or all if none does: then
         only what is said of requirements that hold one of the words. ``not_applicable`` are requirements that do not apply, and why.
         """
         self.not_applicable = not_applicable
         self._compare = compare
         self._generates = generates
+        self._decoration = decoration
         wanted = None if only is None else {*only, *(name.removeprefix(PREFIX) for name in only)}
         chosen = {name: text for name, text in mapping_models().items() if wanted is None or name in wanted}
         models = {name: renaming.apply(text) for name, text in chosen.items()}
@@ -90,17 +93,20 @@ class Generation:
     def _of_decoration(self, name: str, response: Response, shown: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """Whether the files show nothing wrong that those of the model without decoration do not show."""
         plain = name.removeprefix(PREFIX)
-        if not self._is_wanted(REQUIREMENT) or any(fact.undecided for fact in shown[name]):
+        requirement, rule = self._decoration
+        if not self._is_wanted(requirement):
             return
         known = {fact.requirement for fact in shown.get(plain, ()) if fact.finding is not None}
         new = [f.finding for f in shown[name] if f.finding is not None and f.requirement not in known]
+        if not new and any(fact.undecided for fact in shown[name]):
+            return
         if not new:
-            yield Fact(REQUIREMENT, (plain, name), measure="decorated models generated from")
+            yield Fact(requirement, (plain, name), measure="decorated models generated from")
             return
         expected = f"the same of {plain} with annotations and comments as without: {new[0].expected}"
-        finding = Finding(REQUIREMENT, RULE, "decoration", expected, new[0].observed)
+        finding = Finding(requirement, rule, "decoration", expected, new[0].observed)
         evidence = FactEvidence(response.processed, self._texts.get(plain, ""))
-        yield Fact(REQUIREMENT, (plain, name), finding, evidence=evidence)
+        yield Fact(requirement, (plain, name), finding, evidence=evidence)
 
     def _is_wanted(self, requirement: str) -> bool:
         return not self._words or any(word in requirement.lower() for word in self._words)

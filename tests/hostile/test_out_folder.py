@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from command_line import report_of, ucm_cts, within
+from command_line import Outcome, report_of, ucm_cts, within
 from made_up_run import CATALOGUE, DECISIONS, TABLE, sample
 
 from ucm_cts.harness.hosting.locate import WrongUse
@@ -275,3 +275,45 @@ def test_names_that_a_command_does_not_write_are_refused(here: Path) -> None:
         folder.save({"a1": b"3"}, ["a*"])
         assert folder.read("*") == {"a1": b"3"}
         assert folder.read("below/*") == {"below/b": b"2"}
+
+
+def compared(page: Path) -> Outcome:
+    out = page.parent / "runs"
+    save(out)
+    return ucm_cts("compare", out / "report.json", out / "report.json", "--out", page)
+
+
+@pytest.mark.parametrize("name", ["page.html", "page[1]*?.html"])
+def test_compare_replaces_its_own_page_only(here: Path, name: str) -> None:
+    page = here / name
+    others = here / "pageX.html"
+    others.write_text(SECRET)
+    assert compared(page).status == compared(page).status == 0
+    page.write_text(SECRET)
+    refused = compared(page)
+    assert (refused.status, page.read_text(), others.read_text()) == (2, SECRET, SECRET)
+    assert f"'{page}' was changed after a run wrote it; move it away, or choose another --out" in refused.err
+
+
+@pytest.mark.parametrize(
+    ("make", "why"),
+    [
+        (lambda page: page.write_text(SECRET), "is there, and no run wrote it; move it away"),
+        (lambda page: page.symlink_to(page.parent / "elsewhere.html"), "is a link; move it away"),
+        (lambda page: page.mkdir(), "is a directory"),
+    ],
+    ids=["foreign file", "link", "folder"],
+)
+def test_compare_replaces_nothing_foreign(here: Path, make: Callable[[Path], None], why: str) -> None:
+    make(here / "page.html")
+    refused = compared(here / "page.html")
+    assert (refused.status, why in refused.err, "Traceback" in refused.err) == (2, True, False)
+    assert not (here / "elsewhere.html").exists()
+
+
+def test_page_of_compare_and_report_share_a_folder(here: Path) -> None:
+    save(here / "runs")
+    outcome = ucm_cts("compare", *["runs/report.json"] * 2, "--out", "runs/page.html")
+    assert outcome.status == 0, outcome.err
+    save(here / "runs")
+    assert {path.name for path in (here / "runs").iterdir()} == {*REPORT, "page.html"}

@@ -11,7 +11,8 @@ from ucm_cts.harness.toolchains.corpus.declarations import path
 PREFIX = "decorated_"
 """How the names of such models begin; the rest is the name of the model without decoration."""
 
-REQUIREMENT, RULE = "R-9.2.9.4-04", "idl_decoration"
+DECORATION_OF_IDL = "R-9.2.9.4-04", "idl_decoration"
+DECORATION_OF_CPP = "R-9.2.9.4-05", "cpp_decoration"
 """What a generator breaks that makes something else of it, and the rule that finds it."""
 
 _ANNOTABLE = frozenset(s.tag for s in SPELLINGS.values() if Annotation in contained(TAGS[s.tag]))

@@ -10,6 +10,7 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.harness.catalogue.requirements import SUITE, load_requirements
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.statement.applicability import why_not
+from ucm_cts.harness.toolchains.corpus.decoration import DECORATION_OF_CPP
 from ucm_cts.harness.toolchains.cpp.probes.check import GENERATED, HEADERS, rule_of
 from ucm_cts.reference_models.mapping.cpp.expected import Standard
 from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
@@ -26,6 +27,7 @@ MODELS = SUITE / "models" / "mapping"
 def stand_for() -> Mapping[str, frozenset[str]]:
     """The requirements that each rule stands for: those that it checks with the models of the mappings."""
     found: dict[str, set[str]] = {"cpp_headers": set(HEADERS.values()), GENERATED[1]: {GENERATED[0]}}
+    found[DECORATION_OF_CPP[1]] = {DECORATION_OF_CPP[0]}
     for path in sorted(MODELS.glob("*.xml")):
         model = read_model(path.read_bytes(), path.name).model
         for standard in get_args(Standard):

@@ -280,3 +280,40 @@ def test_plans_are_checked_against_received_references() -> None:
     answer = from_host_decoder().decode(Engine(ReferenceAdapter).answer(encode(Run(0, scenario))))
     assert isinstance(answer, Traced)
     assert contradiction(scenario, answer.events) is None
+
+
+def test_a_body_may_have_had_its_references_for_a_part_of_a_call() -> None:
+    """A call that begins before the start and ends after the end of a client goes through the reference that it had meanwhile."""
+    hold = {"do": "hold", "gate": "before"}
+    client = {"provides": ["in"], "requires": ["out"], "plan": {"exchange": [hold, CALL]}}
+    server = {"provides": ["in"], "plan": {"exchange": [hold | {"gate": "inside"}]}}
+    components = {"server": server, "client": client}
+    steps = [
+        {"op": "add_component", "component": "server"},
+        {"op": "add_component", "component": "client"},
+        {"op": "get_port_element", "id": "server", "port": "in", "bind": "server"},
+        {"op": "connect", "id": "client", "port": "out", "to": "server", "bind": "link"},
+        {"op": "get_port_element", "id": "client", "port": "in", "bind": "entry"},
+        {"op": "invoke", "ref": "entry", "value": 1, "thread": "caller"},
+        {"op": "reach", "gate": "before"},
+        {"op": "start"},
+        {"op": "open", "gate": "before"},
+        {"op": "reach", "gate": "inside"},
+        {"op": "destroy", "thread": "ender"},
+        {"op": "settle", "worker": "ender"},
+        {"op": "open", "gate": "inside"},
+        {"op": "join", "worker": "caller"},
+        {"op": "join", "worker": "ender"},
+    ]
+    scenario = msgspec.convert({"components": components, "steps": steps}, Scenario)
+    answer = from_host_decoder().decode(Engine(ReferenceAdapter).answer(encode(Run(0, scenario))))
+    assert isinstance(answer, Traced)
+    ended = [e.n for e in answer.events if isinstance(e, Exit) and (e.component, e.hook) == ("client", "on_shutdown")]
+    (called,) = [e.n for e in answer.events if isinstance(e, Exit) and (e.component, e.hook) == ("client", "exchange")]
+    assert ended[0] < called
+    assert contradiction(scenario, answer.events) is None
+    other = msgspec.convert(
+        {"components": components | {"client": client | {"plan": {"exchange": [hold, CALL, hold]}}}, "steps": steps},
+        Scenario,
+    )
+    assert "client did not act in exchange" in (contradiction(other, answer.events) or "")

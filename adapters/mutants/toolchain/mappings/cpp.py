@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ucm_cts.adapters.contract.metamodel.common import walk
-from ucm_cts.adapters.contract.metamodel.contracts import Constant
+from ucm_cts.adapters.contract.metamodel.contracts import Annotation, Constant
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.mutants.toolchain.registry import breaks
 from ucm_cts.adapters.mutants.toolchain.rewriting import Wrong, register, table
@@ -43,3 +43,16 @@ def nothing_generated_cpp03(program: Program) -> Program:
 def enumerators_clash_in_cpp11(program: Program) -> Program:
     """Enumerators of two enumerations stand in one namespace."""
     return replace(program, generators={**program.generators, "cpp11": lambda model: Generation(model, CPP11).files()})
+
+
+@breaks("R-9.2.9.4-05", task="cpp11")
+def annotations_are_words_of_cpp11(program: Program) -> Program:
+    """Writes annotations into headers as if they were C++."""
+    generate = program.generators["cpp11"]
+
+    def annotating(model: Model) -> dict[str, str]:
+        is_annotated = any(isinstance(element, Annotation) for module in model.modules for element in walk(module))
+        files = generate(model)
+        return {name: f"annotated\n{text}" for name, text in files.items()} if is_annotated else dict(files)
+
+    return replace(program, generators={**program.generators, "cpp11": annotating})

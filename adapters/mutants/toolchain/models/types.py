@@ -117,7 +117,7 @@ def enumerations_do_not_count(e: c.Enumeration, _: Scope) -> object:
 @breaks("R-9.2.5.3-02", declares=("native-types=supported",))
 def native_types_of_any_size(program: Program) -> Program:
     """Takes native types without a greatest size."""
-    return deaf(program, lambda problem, _: problem.element == "NativeType")
+    return deaf(program, lambda problem, _: problem.element == "NativeType" and problem.kind != "misplaced element")
 
 
 def _index_values(beyond: int) -> Callable[[c.Enumeration, Scope], Iterator[Complaint]]:

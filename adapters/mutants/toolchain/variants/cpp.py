@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
+from ucm_cts.adapters.contract.metamodel.common import walk
+from ucm_cts.adapters.contract.metamodel.contracts import Annotation
+from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.mutants.toolchain.registry import named, variant
 from ucm_cts.adapters.mutants.toolchain.rewriting import BOTH, Files, Wrong, edited, rewriting, sentence, table
 from ucm_cts.adapters.reference.toolchain.cpp.support import SUPPORT_FILE
+from ucm_cts.adapters.reference.toolchain.program import Program
 
 
 def _framework(files: Files) -> Files:
@@ -143,3 +148,16 @@ _derive = rewriting(_floating_constants_in_headers, "cpp03")
 variant(task="cpp03", declares=("cpp03-float-constants=header",))(
     named(_derive, "floating_constants_in_headers_cpp03", _derive.__doc__)
 )
+
+
+@variant(task="cpp11")
+def annotations_as_remarks_of_cpp11(program: Program) -> Program:
+    """Says in a remark of each header how many annotations the model has."""
+    generate = program.generators["cpp11"]
+
+    def remarking(model: Model) -> Files:
+        files = generate(model)
+        number = sum(isinstance(element, Annotation) for module in model.modules for element in walk(module))
+        return {name: f"// annotations: {number}\n{text}" for name, text in files.items()} if number else files
+
+    return replace(program, generators={**program.generators, "cpp11": remarking})

@@ -18,6 +18,7 @@ CHECKS = {
     "cpp_body": "Classes that implement the abstract classes, with all that they inherit, compile, link and are called.",
     "cpp_unexpected": "libclang finds nothing in the headers that the mapping excludes and no probe could see.",
     "cpp_generated": "The tool chain writes files for each legal model.",
+    "cpp_decoration": "Annotations and comments in a model change nothing of what is generated.",
 }
 """What the rules do."""
 
