@@ -80,6 +80,11 @@ def serves_each_call_on_a_new_thread(self: Link, method: str, arguments: Sequenc
 # servers
 
 
+@variant_of(*_CLAUSES, readings={"second-server": "at-connect", "call-in-flight": "finishes"})
+class declares_its_services(Base):
+    """The reference framework; its vendor declares what it does with servers and calls."""
+
+
 class _TakesAll(Link):
     def _check_room(self) -> None:
         pass
@@ -89,7 +94,7 @@ class _TakesAll(Link):
         return self.connector == SERVICE_CONNECTOR and len(self.takers) > 1
 
 
-@_service_variant
+@variant_of(*_CLAUSES, readings={"second-server": "at-start"})
 class refuses_two_servers_at_start(Base):
     """A second server can be attached; the container that has it does not start."""
 
@@ -150,7 +155,7 @@ class _Aborts(Link):
         return outcome.result() if outcome.done() else aborted.result()
 
 
-@_service_variant
+@variant_of(*_CLAUSES, readings={"call-in-flight": "aborted"})
 class aborts_calls_of_stopped_servers(Base):
     """stop does not wait for servers; calls in progress fail at once."""
 
