@@ -155,7 +155,7 @@ class _Aborts(Link):
         return outcome.result() if outcome.done() else aborted.result()
 
 
-@variant_of(*_CLAUSES, readings={"call-in-flight": "aborted"})
+@_service_variant
 class aborts_calls_of_stopped_servers(Base):
     """stop does not wait for servers; calls in progress fail at once."""
 
@@ -166,6 +166,54 @@ class aborts_calls_of_stopped_servers(Base):
             if link.connector == SERVICE_CONNECTOR and isinstance(link, _Aborts):
                 taker.entrance._is_open = False
                 link.abort()
+            else:
+                taker.entrance.close()
+
+
+class _AbortedElement(LinkElement):
+    """Ends the calls of its client with an exception when it is told to."""
+
+    def __init__(self, link: Link) -> None:
+        super().__init__(link)
+        self.aborted: Future[Sequence[Datum]] = Future()
+
+    def abort(self) -> None:
+        self.aborted.set_exception(UcmError("the call has been aborted"))
+        self.aborted = Future()
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        aborted = self.aborted
+        if self.link.connector == SERVICE_CONNECTOR and not any(t.entrance.is_open for t in self.link.takers):
+            raise UcmError("there is no server")
+        outcome = _elsewhere(lambda: super(_AbortedElement, self).call(method, arguments))
+        wait((outcome, aborted), return_when=FIRST_COMPLETED)
+        return aborted.result() if aborted.done() else outcome.result()
+
+
+class _AbortsEach(Link):
+    def _attach_sender(self, member: Member, port: str) -> None:
+        super()._attach_sender(member, port)
+        connections = member.container.manager.connections
+        element = _AbortedElement(self)
+        object.__setattr__(connections[max(connections)], "target", element)
+        self.__dict__.setdefault("elements", []).append(element)
+
+
+@variant_of(*_CLAUSES, readings={"call-in-flight": "aborted"})
+class aborts_calls_in_flight(Base):
+    """stop ends the calls of the clients and to the servers that it stops; what a server returns later is dropped."""
+
+    link_class = _AbortsEach
+
+    def _close_entrances(self, member: Member) -> None:
+        for connection in self._connections_from(member):
+            if isinstance(connection.target, _AbortedElement):
+                connection.target.abort()
+        for link, taker in self._takers_of(member):
+            if link.connector == SERVICE_CONNECTOR:
+                taker.entrance._is_open = False
+                for element in link.__dict__.get("elements", ()):
+                    element.abort()
             else:
                 taker.entrance.close()
 
