@@ -44,6 +44,7 @@ class MutantResult(Value, frozen=True):
     ``seconds``: duration.
     ``trouble``: why it could not be judged, such as a host that did not start; empty if it was.
     ``is_rare``: its defect shows rarely, so one failed requirement is enough.
+    ``wrongly_said``: findings whose text is wrong, one of each property, and what is wrong with it.
     """
 
     name: str
@@ -57,6 +58,7 @@ class MutantResult(Value, frozen=True):
     seconds: float
     trouble: str = ""
     is_rare: bool = False
+    wrongly_said: tuple[str, ...] = ()
 
     @property
     def survives(self) -> tuple[str, ...]:
@@ -162,6 +164,7 @@ class Matrix(Value, frozen=True):
         return [
             *((m.name, f"survives ({m.trouble or ', '.join(m.survives)}): {m.lie}") for m in self.survivors),
             *((m.name, f"also fails {kill.text}") for m in self.spilling for kill in m.spills),
+            *((m.name, f"has a finding that {text}") for m in self.mutants for text in m.wrongly_said),
             *(
                 (c.name, f"cheats, and {', '.join(c.came_out) or 'nothing'} comes out: {c.trouble or c.lie}")
                 for c in self.undetected
@@ -187,7 +190,8 @@ class Matrix(Value, frozen=True):
     @property
     def is_proved(self) -> bool:
         """Are all mutants killed without spills, of each requirement one, all variants spared, and all cheats found out?"""
-        wrong = self.survivors or self.spilling or self.wronged or self.undetected or self.unproved
+        badly_said = any(mutant.wrongly_said for mutant in self.mutants)
+        wrong = self.survivors or self.spilling or badly_said or self.wronged or self.undetected or self.unproved
         return not (wrong or self.left_out)
 
 

@@ -29,6 +29,7 @@ from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
+from ucm_cts.harness.selftest.wording import wrongly_said
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.reference_models.findings import Finding
@@ -141,6 +142,7 @@ def examine_mutant(subject: Subject, how: Thoroughness) -> MutantResult:
         ran.seconds,
         ran.trouble,
         subject.is_rare,
+        tuple(ran.wrongly_said()),
     )
 
 
@@ -162,6 +164,16 @@ class _Trial:
     scenarios: int = 0
     seconds: float = 0.0
     trouble: str = ""
+
+    def wrongly_said(self) -> Iterator[str]:
+        """Of each property one finding whose text is wrong."""
+        met: set[tuple[str, str]] = set()
+        for finding, execution in (one for shown in self.shown.values() for one in shown):
+            problem = wrongly_said(execution.scenario, finding)
+            if problem and (finding.rule, problem) not in met:
+                met.add((finding.rule, problem))
+                said = f"expected {finding.expected}; observed {finding.observed}"
+                yield f"{problem}: {finding.requirement} ({finding.rule}) in {execution.name}: {said}"
 
     def kill(self, subject: Subject, requirement: str) -> Kill:
         """The finding that says best why ``requirement`` failed."""

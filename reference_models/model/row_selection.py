@@ -295,10 +295,11 @@ class RowSelection:
     def _create_container(
         self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.CreateContainer
     ) -> None:
-        if ongoing.container.started is not False:
-            condition = "manager started"
-        else:
-            condition = "first" if len(runtime.containers) == 1 else "another"
+        started = ongoing.container.started
+        ongoing.forgiving = (
+            ongoing.forgiving or started is None
+        )  # then it is open whether the manager counts as started
+        condition = "manager started" if started else "first" if len(runtime.containers) == 1 else "another"
         self._role(ongoing, None, "absent", condition)
 
     def _destroy(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.Destroy) -> None:

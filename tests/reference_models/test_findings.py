@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import re
 from collections.abc import Iterator
 
 import msgspec
@@ -20,6 +19,7 @@ from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.selftest.wording import wrongly_said
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
@@ -33,8 +33,6 @@ EACH = 12
 
 SHORT = 0.2
 """Of the patience of scenarios: what a mutant never does is not waited for longer."""
-
-JARGON = re.compile(r"\bopaque\b|\bUNDECLARED\b|went the way|\bNone\b|\bTrue\b|\bFalse\b|<[a-z_.]+object")
 
 
 def traces_of(mutant: Mutant, each: int) -> Iterator[tuple[Scenario, Trace]]:
@@ -52,22 +50,8 @@ def traces_of(mutant: Mutant, each: int) -> Iterator[tuple[Scenario, Trace]]:
             yield asked, reply.events
 
 
-def names_of(scenario: Scenario) -> re.Pattern[str]:
-    """Instances, port elements, connections, containers and references."""
-    names = {s.MANAGER, *scenario.components}
-    for declaration in scenario.components.values():
-        names.update((*declaration.provides, *declaration.requires))
-    for step in scenario.steps:
-        values = (getattr(step, field, "") for field in ("bind", "id", "connection", "link", "container", "ref"))
-        names.update(value for value in values if isinstance(value, str))
-    return re.compile("|".join(rf"(?<!\w){re.escape(name)}(?!\w)" for name in names if name))
-
-
 def assert_well_said(scenario: Scenario, finding: Finding) -> None:
-    assert finding.expected.strip()
-    assert finding.expected != finding.observed, finding
-    assert names_of(scenario).search(f"{finding.expected} {finding.observed}"), finding
-    assert not JARGON.search(finding.expected + finding.observed), finding
+    assert not wrongly_said(scenario, finding), finding
 
 
 def assert_all_well_said(mutant: Mutant, each: int) -> None:

@@ -44,6 +44,7 @@ MODULES = {
         "answers",
         "attachments",
         "clocks_and_traces",
+        "declared",
         "execution",
         "messages",
         "phases",

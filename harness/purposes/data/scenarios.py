@@ -67,16 +67,16 @@ def _scenarios(
     for name, of in types.types.items():
         drawn = draw(of, DRAWN, f"{types.sort}/{name} of {seed}", readings) if seed is not None else []
         loads.append(Load(name, of, tuple(corners(of, readings) + drawn)))
-    pushed = [Load(load.name, load.of, (*_some(load.of, load.values), _distinct(load))) for load in loads]
+    pushed = [Load(load.name, load.of, (*_some(load.of, load.values), _distinct(load, readings))) for load in loads]
     return (
         (f"data/{types.sort}/services", services(with_parts(loads))),
         (f"data/{types.sort}/messages", messages(with_parts(pushed))),
     )
 
 
-def _distinct(load: Load) -> d.Datum:
+def _distinct(load: Load, readings: Readings) -> d.Datum:
     """A value that is hardly like that of another type, even when it was altered."""
-    return draw(load.of, 1, f"the message of {load.name}")[0]
+    return draw(load.of, 1, f"the message of {load.name}", readings)[0]
 
 
 def _some(of: d.AnyType, values: tuple[d.Datum, ...]) -> tuple[d.Datum, ...]:

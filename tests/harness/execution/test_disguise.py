@@ -9,13 +9,14 @@ import pytest
 from subjects import Parrot
 
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
-from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.scenario import CallMethod, Scenario
 from ucm_cts.adapters.contract.trace import Raise, Trace
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
@@ -102,6 +103,14 @@ def test_every_scenario_of_the_suite_comes_back_from_its_disguise() -> None:
             revealed = disguise.reveal(disguise.scenario(scenario))
             assert revealed.components == scenario.components
             assert len(revealed.steps) == len(scenario.steps)
+
+
+def test_long_messages_for_the_log_keep_their_length() -> None:
+    (wide,) = (p for p in log_message_purposes() if p.id == "log/wide texts")
+    disguised = Disguise(1, SPELLING).scenario(wide.scenarios[0][1])
+    plans = [plan for declaration in disguised.components.values() for plan in declaration.plan.values()]
+    lengths = {len(str(a.arguments[1])) for plan in plans for a in plan if isinstance(a, CallMethod)}
+    assert {0, 256, 65_536} <= lengths
 
 
 def test_payloads_are_not_found_inside_other_numbers_nor_names_made_up() -> None:

@@ -21,7 +21,7 @@ LATE = 0.02
 """Seconds. Records are written so much later than they are made."""
 
 
-@variant_of("10.1.4")
+@variant_of("10.1.4", readings={"local-clock": "monotonic"})
 class has_monotonic_clocks(Base):
     """Times begin when the machine was started; synchronized time is an hour ahead of local time."""
 
@@ -94,7 +94,7 @@ class has_one_element_for_all(Base):
         return list(reversed(super()._dependencies_of(member)))
 
 
-@variant_of("10.1.4")
+@variant_of("10.1.4", readings={"port-trace-records": "call-and-return"})
 class writes_calls_and_returns(Base):
     """A traced call has a record when it is made and one when it returns."""
 

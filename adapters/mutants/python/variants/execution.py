@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.data_types import Interface
@@ -143,6 +144,54 @@ class lets_the_last_in_first(lets_the_first_in_first):
     last_first = True
 
 
+# calls that come back
+
+_chain: ContextVar[tuple[Member, ...]] = ContextVar("_chain", default=())
+
+
+class _Chained(Base):
+    """Knows which components wait for a call, on whatever thread it is made."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        chain = _chain.get()
+        if member in chain and self._is_protected(member):
+            return self._come_back(work)
+
+        def within() -> T:
+            token = _chain.set((*chain, member))
+            try:
+                return work()
+            finally:
+                _chain.reset(token)
+
+        return super()._execute(member, port, within)
+
+    def _come_back(self, work: Callable[[], T]) -> T:
+        return work()
+
+
+@variant_of(*POLICIES, readings={"protected-recursion": "enter"})
+class lets_calls_come_back(_Chained):
+    """A call that comes back to a component that waits for it is let in."""
+
+
+@variant_of(*POLICIES, readings={"protected-recursion": "refuse"})
+class refuses_calls_that_come_back(_Chained):
+    """A call that comes back to a component that waits for it is refused."""
+
+    def _come_back(self, work: Callable[[], T]) -> T:
+        raise UcmError("the component waits for this call")
+
+
+@variant_of(*POLICIES, readings={"protected-recursion": "wait"})
+class never_lets_calls_come_back(_Chained):
+    """A call that comes back to a component that waits for it waits for ever."""
+
+    def _come_back(self, work: Callable[[], T]) -> T:
+        threading.Event().wait()
+        return work()
+
+
 # what is open under a reading that is declared
 
 
@@ -243,7 +292,7 @@ class manages_ports_or_whole_components(Base):
 # run
 
 
-@replaces("_keep_running", clauses=POLICIES)
+@replaces("_keep_running", clauses=POLICIES, readings={"run-trigger": "once"})
 def runs_once_a_start(self: Base, member: Member, trigger: Trigger) -> None:
     """run is called once after each start."""
     if not trigger.ended.wait(self.period):

@@ -268,6 +268,18 @@ class breaks_nothing(Link):
     mend_link = break_link  # type: ignore[assignment]
 
 
+@variant_of(*_CLAUSES, readings={"transport-fault": "impossible", "connector-fault": "impossible"})
+class cannot_break(breaks_nothing):
+    """Nothing lies between the ends of a connection that could break, and the vendor declares so."""
+
+
+@variant_of(*_CLAUSES, readings={"push-without-receiver": "internal_error"})
+class has_no_use_for_messages_without_receiver(_Codes):
+    """Push returns internal_error if there is no receiver."""
+
+    alone = INTERNAL_ERROR
+
+
 _DECLARED = {
     "comm-error": "at-once",
     "message-delivery": "asynchronous",

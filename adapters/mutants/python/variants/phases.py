@@ -41,7 +41,7 @@ def starts_when_all_is_configured(self: Base) -> None:
         Container._check_startable(container)
 
 
-@refuses_if("create_container")
+@refuses_if("create_container", readings={"late-container": "refuse"})
 def makes_no_late_containers(self: Base) -> bool:
     """A started manager makes no containers."""
     return self.is_started
@@ -53,7 +53,7 @@ def starts_nothing_empty(self: Base) -> bool:
     return not self.members
 
 
-@replaces("connect")
+@replaces("connect", readings={"self-connection": "refuse"})
 def connects_nothing_to_itself(self: Base, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
     """A component's own port element cannot be connected to it."""
     member = self.members.get(instance)

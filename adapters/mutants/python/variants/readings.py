@@ -19,7 +19,7 @@ from ucm_cts.adapters.reference.python.framework import Container, ContainerMana
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
-@variant
+@variant_of(*CONTAINER, readings={"remove-while-ready": "cascade", "remove-provider-in-use": "cascade"})
 class cascades(Base):
     """remove_component shuts down and disconnects as much as necessary."""
 
@@ -39,7 +39,7 @@ class cascades(Base):
             failures.report()
 
 
-@variant
+@variant_of(*CONTAINER, readings={"remove-while-ready": "cascade", "remove-provider-in-use": "dangling-tolerated"})
 class lets_references_dangle(cascades):
     """The client of a removed provider keeps its reference, unconnected, without on_disconnect."""
 
@@ -51,7 +51,7 @@ class lets_references_dangle(cascades):
         super().remove_component(comp_instance)
 
 
-@variant
+@variant_of(*CONTAINER, readings={"late-add": "deferred"})
 class adds_later(Base):
     """add_component to a started container initialises; the component waits for the next start."""
 
@@ -71,7 +71,7 @@ class adds_later(Base):
             self.is_started = started
 
 
-@variant
+@variant_of(*CONTAINER, readings={"late-add": "start-immediately"})
 class starts_late_additions(adds_later):
     """add_component to a started container starts at once what requires nothing."""
 
@@ -83,7 +83,7 @@ class starts_late_additions(adds_later):
         return identifier
 
 
-@variant
+@variant_of(*CONTAINER, readings={"late-connect": "allowed", "late-disconnect": "allowed"})
 class configures_at_any_time(Base):
     """connect and disconnect work on operational components; callbacks belong to configuration and do not come."""
 
@@ -102,7 +102,7 @@ class configures_at_any_time(Base):
             super()._connect(connection)
 
 
-@variant
+@variant_of(*CONTAINER, readings={"start-unconfigured": "tolerate", "late-connect": "refuse"})
 class starts_the_unconfigured(Base):
     """start does not check that port elements are connected."""
 
@@ -119,7 +119,7 @@ class starts_the_unconfigured_with_null(starts_the_unconfigured):
         return [given.get(p, pm.PortConnection(p, (None,))) for p in member.implementation.requires]
 
 
-@variant
+@variant_of(*CONTAINER, readings={"second-connect": "append or replace"})
 class appends_connections(Base):
     """A port element takes any number of connections."""
 
@@ -159,7 +159,7 @@ class reuses_ids(Base):
         return next(n for n in range(-3, 10**6) if n not in self.members and n not in self.manager.connections)
 
 
-@variant
+@variant_of(*CONTAINER, readings={"double-start": "error", "stop-when-stopped": "error"})
 class refuses_repetition(Base):
     """start when started and stop when stopped raise UCM_ERROR."""
 
@@ -179,7 +179,7 @@ class _Deaf(Failures):
         pass
 
 
-@variant
+@variant_of(*CONTAINER, readings={"callback-failure": "swallowed"})
 class swallows_exceptions(Base):
     """Exceptions of bodies are ignored."""
 
@@ -213,7 +213,7 @@ class swallows_exceptions(Base):
             _Deaf().attempt(connection.client.body.on_connect, connection.port, connection.target)
 
 
-@variant
+@variant_of(*CONTAINER, readings={"manager-start": "cascade", "manager-get-components": "recursive"})
 class manager_reaches_down(Base):
     """The manager's start, stop and get_components include sub-containers."""
 

@@ -80,6 +80,11 @@ def serves_each_call_on_a_new_thread(self: Link, method: str, arguments: Sequenc
 # servers
 
 
+@variant_of(*_CLAUSES, readings={"second-server": "at-connect", "call-in-flight": "finishes"})
+class declares_its_services(Base):
+    """The reference framework; its vendor declares what it does with servers and calls."""
+
+
 class _TakesAll(Link):
     def _check_room(self) -> None:
         pass
@@ -89,7 +94,7 @@ class _TakesAll(Link):
         return self.connector == SERVICE_CONNECTOR and len(self.takers) > 1
 
 
-@_service_variant
+@variant_of(*_CLAUSES, readings={"second-server": "at-start"})
 class refuses_two_servers_at_start(Base):
     """A second server can be attached; the container that has it does not start."""
 
@@ -161,6 +166,54 @@ class aborts_calls_of_stopped_servers(Base):
             if link.connector == SERVICE_CONNECTOR and isinstance(link, _Aborts):
                 taker.entrance._is_open = False
                 link.abort()
+            else:
+                taker.entrance.close()
+
+
+class _AbortedElement(LinkElement):
+    """Ends the calls of its client with an exception when it is told to."""
+
+    def __init__(self, link: Link) -> None:
+        super().__init__(link)
+        self.aborted: Future[Sequence[Datum]] = Future()
+
+    def abort(self) -> None:
+        self.aborted.set_exception(UcmError("the call has been aborted"))
+        self.aborted = Future()
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        aborted = self.aborted
+        if self.link.connector == SERVICE_CONNECTOR and not any(t.entrance.is_open for t in self.link.takers):
+            raise UcmError("there is no server")
+        outcome = _elsewhere(lambda: super(_AbortedElement, self).call(method, arguments))
+        wait((outcome, aborted), return_when=FIRST_COMPLETED)
+        return aborted.result() if aborted.done() else outcome.result()
+
+
+class _AbortsEach(Link):
+    def _attach_sender(self, member: Member, port: str) -> None:
+        super()._attach_sender(member, port)
+        connections = member.container.manager.connections
+        element = _AbortedElement(self)
+        object.__setattr__(connections[max(connections)], "target", element)
+        self.__dict__.setdefault("elements", []).append(element)
+
+
+@variant_of(*_CLAUSES, readings={"call-in-flight": "aborted"})
+class aborts_calls_in_flight(Base):
+    """stop ends the calls of the clients and to the servers that it stops; what a server returns later is dropped."""
+
+    link_class = _AbortsEach
+
+    def _close_entrances(self, member: Member) -> None:
+        for connection in self._connections_from(member):
+            if isinstance(connection.target, _AbortedElement):
+                connection.target.abort()
+        for link, taker in self._takers_of(member):
+            if link.connector == SERVICE_CONNECTOR:
+                taker.entrance._is_open = False
+                for element in link.__dict__.get("elements", ()):
+                    element.abort()
             else:
                 taker.entrance.close()
 
