@@ -31,6 +31,8 @@ LONGEST_NAME = 100
 """Characters that the pattern of names of port elements may have."""
 
 _LETTERS = "bcdfghjklmnpqrstvwxz"
+_WORD = re.compile(r"\w{2,32}")
+"""An attribute value that says nothing but its name."""
 
 
 class Disguise:
@@ -134,8 +136,8 @@ class Disguise:
         )
 
     def _configured(self, plain: str) -> str:
-        """Only words are disguised, because some frameworks parse values of types."""
-        return self._name(plain) if read_spelled(plain) is None else plain
+        """Only words are disguised: some frameworks parse values of types, and other texts are there for what they look like."""
+        return self._name(plain) if _WORD.fullmatch(plain) and read_spelled(plain) is None else plain
 
     def _policy(self, policy: Policy) -> Policy:
         """Definitions keep their standard names."""

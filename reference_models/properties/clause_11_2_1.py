@@ -18,6 +18,9 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 _BEFORE_INIT, _ATTRIBUTES = "R-11.2.1.2-05", "R-10.1.1-06"
 
 _UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
+_LONGEST = 60
+"""Characters of a value that a finding shows."""
+
 _SHOWN = 3
 """The most attributes that a finding lists."""
 
@@ -59,7 +62,7 @@ def own_attributes_only(check: Property, runtime: ObservedRuntime, callback: Cal
     return check.fail(
         "extra",
         expected=f"'{callback.event.component}' is given attributes of its type only: {has}",
-        observed=f"its attribute {extra[0]!r} was set to {held[extra[0]]!r}, which nobody configured",
+        observed=f"its attribute {extra[0]!r} was set to {_brief(held[extra[0]])!r}, which nobody configured",
         during=(callback.ongoing, event),
     )
 
@@ -75,14 +78,19 @@ def _is_configured(held: str | None, configured: str) -> bool:
     return held == configured or (value is not None and own is not None and spell(value) == spell(own))
 
 
+def _brief(value: str) -> str:
+    """A value as findings show it: of a long one its beginning and its length."""
+    return value if len(value) <= _LONGEST else f"{value[:_LONGEST]}… ({len(value)} characters)"
+
+
 def _holds_others(
     check: Property, requirement: str, declaration: s.Declaration, wrong: list[str], callback: Callback
 ) -> Finding:
     held, some = callback.event.attributes or {}, wrong[:_SHOWN]
     return check.fail(
         "missing" if all(a not in held for a in wrong) else "another value",
-        expected="on_init finds " + ", ".join(f"{a}={declaration.attributes[a]}" for a in some),
-        observed="on_init found " + ", ".join(f"{a}={held[a]}" if a in held else f"{a} unset" for a in some),
+        expected="on_init finds " + ", ".join(f"{a}={_brief(declaration.attributes[a])}" for a in some),
+        observed="on_init found " + ", ".join(f"{a}={_brief(held[a])}" if a in held else f"{a} unset" for a in some),
         during=(callback.ongoing, callback.event),
         requirement=requirement,
     )

@@ -393,7 +393,7 @@ class StopsLater final : public ReturnsEarly {
 };
 const bool p = breaks<StopsLater>("stop_returns_after_20_ms", {"R-11.2.2.1-12"},
                                   "stop returns after 20 ms, although a body is still in on_shutdown.",
-                                  {"R-10.1.3.2-02", "R-11.2.3-17", "R-11.2.2.1-13"});
+                                  {"R-11.2.1.2-10", "R-11.2.2.2-01", "R-11.2.3-17", "R-11.2.2.1-13"});
 
 class StartsLater final : public ReturnsEarly {
   public:
@@ -405,7 +405,7 @@ class StartsLater final : public ReturnsEarly {
 };
 const bool q = breaks<StartsLater>("start_returns_after_20_ms", {"R-11.2.2.1-11"},
                                    "start returns after 20 ms, although a body is still in on_startup.",
-                                   {"R-11.2.1.2-07", "R-11.2.3-03", "R-10.1.3.2-01"});
+                                   {"R-11.2.2.2-01", "R-11.2.1.2-07", "R-11.2.3-03", "R-11.2.1.2-08"});
 
 }  // namespace
 

@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
 from ucm_cts.harness.purposes.provocations.application import Application
 from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
-from ucm_cts.harness.purposes.provocations.dimensions import Cell, load_cells, load_dimensions
+from ucm_cts.harness.purposes.provocations.dimensions import Cell, Entrance, load_cells, load_dimensions
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 
@@ -25,16 +25,13 @@ def provocation_purposes() -> list[TestPurpose]:
 def duration_purposes() -> list[TestPurpose]:
     """Bodies that take their time: each entrance once, for each duration."""
     dimensions, durations = load_dimensions(), load_boundaries().durations
-    held = next(action for action in dimensions.actions if action.name == "is held")
     purposes = []
     for entrance in dimensions.entrances:
-        order = itertools.product(
-            dimensions.aftermaths, dimensions.places[::-1], dimensions.positions[1:], dimensions.kinds
-        )
-        cells = (Cell(entrance, held, *others) for others in order)
-        cell = next(cell for cell in cells if not dimensions.why_empty(cell))
         name = f"duration/{entrance.name}"
-        scenarios = tuple((f"{name}/{ms} ms, {cell.name}", Application(cell, ms).scenario()) for ms in durations)
+        cells = [cell for place in dimensions.places if (cell := _held_in(entrance, place))]
+        scenarios = tuple(
+            (f"{name}/{ms} ms, {cell.name}", Application(cell, ms).scenario()) for ms in durations for cell in cells
+        )
         text = f"A body takes its time in {entrance.name}."
         exercises = entrance.exercises
         purposes.append(TestPurpose(name, exercises[0].split("-")[1], text, exercises, scenarios))
@@ -46,6 +43,15 @@ def duration_purposes() -> list[TestPurpose]:
     )
     text = "A component or fragment that another one calls takes its time."
     return [*purposes, TestPurpose("duration/call of a peer", "11.1.3", text, ("R-11.1.3-01", "R-11.1.2-02"), slow)]
+
+
+def _held_in(entrance: Entrance, place: str) -> Cell | None:
+    """A cell in which the body is held, and another one was added before; None if there is none in that place."""
+    dimensions = load_dimensions()
+    held = next(action for action in dimensions.actions if action.name == "is held")
+    order = itertools.product(dimensions.aftermaths, (place,), dimensions.positions[1:], dimensions.kinds)
+    cells = (Cell(entrance, held, *others) for others in order)
+    return next((cell for cell in cells if not dimensions.why_empty(cell)), None)
 
 
 def _slow_peer(milliseconds: int, home: str, is_fragment: bool) -> Scenario:

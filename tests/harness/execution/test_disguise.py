@@ -144,3 +144,14 @@ def test_names_of_methods_that_begin_like_others_still_do() -> None:
     revealed = {disguise.reveal(name): name for name in interface.methods}
     assert revealed["alphabet"].startswith(revealed["alpha"])
     assert not revealed["beta"].startswith(revealed["alpha"])
+
+
+@pytest.mark.parametrize("value", ["", "a", "two\nlines", " blanks ", "x" * 4096, "12"])
+def test_values_of_a_certain_look_keep_it(value: str) -> None:
+    """What provokes by its length or its characters reaches the framework as it is; words do not."""
+    server = {"attributes": {"label": value, "level": "word"}}
+    scenario = msgspec.convert({"components": {"server": server}, "steps": []}, Scenario)
+    (declaration,) = Disguise(1, SPELLING).scenario(scenario).components.values()
+    label, level = declaration.attributes.values()
+    assert label == value
+    assert level != "word"

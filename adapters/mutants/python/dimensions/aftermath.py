@@ -9,7 +9,7 @@ from typing import Any
 from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
 from ucm_cts.adapters.mutants.python.dimensions.failures import NotesFailures
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base, breaks, variant_of
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import ContainerManager
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
@@ -139,15 +139,3 @@ class servers_stay_in_use_after_a_failure(NotesFailures):
         elements = [self._reference_to(member, port) for port in member.implementation.provides]
         if any(element in self.manager.__dict__.get("used", ()) for element in elements):
             raise UcmError(f"another component is connected to component {member.id}")
-
-
-@variant_of("11", "12.10")
-class connections_stand_until_their_end_succeeds(Base):
-    """A connection whose on_disconnect raises in disconnect is not undone: it stands, and its port is taken."""
-
-    def _undo(self, connection: Connection) -> None:
-        try:
-            super()._undo(connection)
-        except UcmError:
-            self.manager.connections[connection.id] = connection
-            raise
