@@ -186,9 +186,12 @@ def _is_not_there(ongoing: OperationInProgress, owner: Member, end: Raise) -> bo
 
 
 def _gone_after_all(runtime: Runtime, member: Member) -> None:
-    """A removal failed, and now the container says that the component is not there: that removal did remove it."""
+    """A removal failed, and now the container says that the component is not there: that removal did remove it.
+
+    A connection whose on_disconnect raised may have been kept all the same (callback-failure).
+    """
     for connection in member.connections:
-        connection.live = False
+        connection.live = None if connection.live is None and member.raises("on_disconnect") else False
     runtime.let_go(member)
     container = member.container
     container.of_doubt = any(other.doubtful for other in container.live_members())

@@ -26,6 +26,8 @@ def nobody_left_behind(check: Property, runtime: ObservedRuntime, ongoing: Opera
     if not isinstance(ongoing.end, Return) or container.started is not None or runtime.destroyed or container.doubtful:
         return ()
     starts = ongoing.operation == "start"
+    if starts and container.failed and isinstance(runtime.scenario.steps[container.failed[0]], s.Stop):
+        return ()  # it may count as started still, and then start changes nothing
     sound = [m for m in container.live_members() if m.is_sound and not m.doubtful and not m.late]
     left = [m for m in sound if (m.phase == "on_startup") != starts and (m.phase or starts)]
     if not left:

@@ -121,21 +121,3 @@ class ports_stay_taken_in_silence(_KnowsTaken):
         if self._is_taken(instance):
             raise UcmError(f"{port_name!r} is connected already")
         return super().connect(instance, port_name, to_port)
-
-
-@breaks("R-11.2.2.1-05", also=("R-11.2.3-11", "R-12.10-05"))
-class servers_stay_in_use_after_a_failure(NotesFailures):
-    """When a client was removed and its on_disconnect raised, its server counts as used for ever."""
-
-    def _disconnect(self, connection: Connection, failures: Failures) -> None:
-        own = Failures()
-        super()._disconnect(connection, own)
-        if own.first:
-            failures.first = failures.first or own.first
-            self.manager.__dict__.setdefault("used", []).append(connection.target)
-
-    def _check_removable(self, member: Member) -> None:
-        super()._check_removable(member)
-        elements = [self._reference_to(member, port) for port in member.implementation.provides]
-        if any(element in self.manager.__dict__.get("used", ()) for element in elements):
-            raise UcmError(f"another component is connected to component {member.id}")
