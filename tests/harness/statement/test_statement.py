@@ -572,7 +572,7 @@ def test_wrong_statements_are_wrong_use(here: Path) -> None:
     (here / "other.toml").write_text('product = "Other"\n')
     for file, problem in (
         ("bad.toml", "bad.toml:2: there is no option 'x'"),
-        ("other.toml", "is about product 'Other'"),
+        ("other.toml", "other.toml:1 is about product 'Other'"),
     ):
         outcome = ucm_cts("run", "reference-py", "--ics", file)
         assert outcome.status == 2
