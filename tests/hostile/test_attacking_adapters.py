@@ -130,11 +130,11 @@ IMPORTS: dict[str, tuple[str, str]] = {
     ),
     "has no product": (
         "Evil.product = None",
-        "'evil:Evil' does not answer hello: protocol, Expected `str`, got `null` - at `\\$.product`",
+        r"'evil:Evil': evil:Evil has a product that is no text; write product = \"\.\.\.\" in the class",
     ),
     "has a number for a version": (
         "Evil.version = 1",
-        "'evil:Evil' does not answer hello: protocol, Expected `str`, got `int` - at `\\$.version`",
+        r"'evil:Evil': evil:Evil has a version that is no text; write version = \"\.\.\.\" in the class",
     ),
 }
 EVIL = """

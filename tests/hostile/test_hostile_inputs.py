@@ -133,7 +133,7 @@ INPUTS: dict[str, tuple[str, Callable[[Path], None], str]] = {
     "NUL in an adapter": ("run a\0b:C", nothing, "'a\u2400b:C' names no adapter.*"),
     "NUL in a socket": ("run unix:/a\0b", nothing, "no adapter answers at unix:/a\u2400b: .*"),
     "NUL in a path": ("run /a\0b", nothing, "there is no file '/a\u2400b'"),
-    "NUL in a requirement": ("explain R\0", nothing, "no requirement 'R\u2400'.*"),
+    "NUL in a requirement": ("explain R\0", nothing, "no requirement, clause or operation 'R\u2400'.*"),
     "expression that looks ahead": (
         "run --toolchain t.toml",
         tools(more="diagnostic = '(?=x)(?P<line>1)'"),

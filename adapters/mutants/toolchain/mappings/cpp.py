@@ -45,14 +45,24 @@ def enumerators_clash_in_cpp11(program: Program) -> Program:
     return replace(program, generators={**program.generators, "cpp11": lambda model: Generation(model, CPP11).files()})
 
 
-@breaks("R-9.2.9.4-05", task="cpp11")
-def annotations_are_words_of_cpp11(program: Program) -> Program:
-    """Writes annotations into headers as if they were C++."""
-    generate = program.generators["cpp11"]
+def _annotating(program: Program, task: str) -> Program:
+    generate = program.generators[task]
 
     def annotating(model: Model) -> dict[str, str]:
         is_annotated = any(isinstance(element, Annotation) for module in model.modules for element in walk(module))
         files = generate(model)
         return {name: f"annotated\n{text}" for name, text in files.items()} if is_annotated else dict(files)
 
-    return replace(program, generators={**program.generators, "cpp11": annotating})
+    return replace(program, generators={**program.generators, task: annotating})
+
+
+@breaks("R-9.2.9.4-05", task="cpp11")
+def annotations_are_words_of_cpp11(program: Program) -> Program:
+    """Writes annotations into headers as if they were C++."""
+    return _annotating(program, "cpp11")
+
+
+@breaks("R-9.2.9.4-05", task="cpp03")
+def annotations_are_words_of_cpp03(program: Program) -> Program:
+    """Writes annotations into headers as if they were C++."""
+    return _annotating(program, "cpp03")

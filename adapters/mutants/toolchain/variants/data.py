@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.modules import Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.mutants.toolchain.checking import deaf, refusing
 from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
@@ -22,9 +23,9 @@ def declarations_anywhere(program: Program) -> Program:
 
 @variant(declares=("modules-given-twice=refused",))
 @refusing
-def modules_in_one_piece(module: c.ContractModule, scope: Scope) -> bool:
-    """Refuses a second contract module of one name at one place."""
-    same = [d.element for d in scope.members[module.name] if isinstance(d.element, c.ContractModule)]
+def modules_in_one_piece(module: Module, scope: Scope) -> bool:
+    """Refuses a second module of one kind and name at one place."""
+    same = [d.element for d in scope.members[module.name] if type(d.element) is type(module)]
     return same[0] is not module
 
 
