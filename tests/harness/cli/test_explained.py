@@ -39,7 +39,13 @@ def test_an_operation_has_the_requirement_about_its_end_and_scenarios(operation:
 
 @pytest.mark.parametrize(
     "operation",
-    [*get_args(s.Hook), *(c.id for c in load_capabilities().capabilities), *sorted(s.STANDARD_METHODS), "attach", "break"],
+    [
+        *get_args(s.Hook),
+        *(c.id for c in load_capabilities().capabilities),
+        *sorted(s.STANDARD_METHODS),
+        "attach",
+        "break",
+    ],
 )
 def test_callbacks_parts_and_methods_can_be_asked_for(operation: str) -> None:
     topic = found(operation)
