@@ -22,15 +22,27 @@ def provocation_purposes() -> list[TestPurpose]:
     ]
 
 
+_LONG = 50
+"""Durations from so many milliseconds on are long."""
+
+
 def duration_purposes() -> list[TestPurpose]:
-    """Bodies that take their time: each entrance once, for each duration."""
+    """Bodies that take their time: each entrance for each duration, the longest ones in one place, because they cost that time.
+
+    A body that is added late may be refused, and would be waited for in vain.
+    """
     dimensions, durations = load_dimensions(), load_boundaries().durations
     purposes = []
-    for entrance in dimensions.entrances:
+    certain = (
+        entrance for entrance in dimensions.entrances if (entrance.by, entrance.after) != ("add_component", "start")
+    )
+    for number, entrance in enumerate(certain):
         name = f"duration/{entrance.name}"
         cells = [cell for place in dimensions.places if (cell := _held_in(entrance, place))]
         scenarios = tuple(
-            (f"{name}/{ms} ms, {cell.name}", Application(cell, ms).scenario()) for ms in durations for cell in cells
+            (f"{name}/{ms} ms, {cell.name}", Application(cell, ms).scenario())
+            for ms in durations
+            for cell in (cells if ms < _LONG else [cells[number % len(cells)]])
         )
         text = f"A body takes its time in {entrance.name}."
         exercises = entrance.exercises
@@ -39,10 +51,16 @@ def duration_purposes() -> list[TestPurpose]:
         (f"duration/call of a {kind}/{ms} ms, {home}", _slow_peer(ms, home, kind == "fragment"))
         for ms in durations
         for home in dimensions.places
-        for kind in dimensions.kinds
+        for kind in (dimensions.kinds if ms < _LONG else (_kind_at(home),))
     )
     text = "A component or fragment that another one calls takes its time."
     return [*purposes, TestPurpose("duration/call of a peer", "11.1.3", text, ("R-11.1.3-01", "R-11.1.2-02"), slow)]
+
+
+def _kind_at(home: str) -> str:
+    """One kind for each place, so that each kind and each place comes once."""
+    dimensions = load_dimensions()
+    return dict(zip(dimensions.places, dimensions.kinds, strict=True))[home]
 
 
 def _held_in(entrance: Entrance, place: str) -> Cell | None:
