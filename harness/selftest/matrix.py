@@ -7,6 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ucm_cts.adapters.contract.value import Value
 
+MOST_FURTHER = 1
+"""So many requirements may a mutant fail, on average, besides those that it declares."""
+
 
 class Kill(Value, frozen=True):
     """A requirement that a mutant failed, and the finding that shows it best.
@@ -75,7 +78,16 @@ class MutantResult(Value, frozen=True):
 
     @property
     def spills(self) -> tuple[Kill, ...]:
-        """What it fails although its defect does not break it."""
+        """What it fails although its defect does not break it: no finding names a place where it differs from its original."""
+        return tuple(kill for kill in self._others if not kill.names_the_place)
+
+    @property
+    def further(self) -> tuple[Kill, ...]:
+        """What it fails besides, because of its defect: the findings name places where it differs from its original."""
+        return tuple(kill for kill in self._others if kill.names_the_place)
+
+    @property
+    def _others(self) -> tuple[Kill, ...]:
         return tuple(kill for kill in self.kills if kill.requirement not in (*self.breaks, *self.also))
 
 
@@ -164,6 +176,11 @@ class Matrix(Value, frozen=True):
         return [
             *((m.name, f"survives ({m.trouble or ', '.join(m.survives)}): {m.lie}") for m in self.survivors),
             *((m.name, f"also fails {kill.text}") for m in self.spilling for kill in m.spills),
+            *(
+                [("all mutants", f"fail {self.further_on_average:.2f} further requirements on average")]
+                if self.further_on_average > MOST_FURTHER
+                else []
+            ),
             *((m.name, f"has a finding that {text}") for m in self.mutants for text in m.wrongly_said),
             *(
                 (c.name, f"cheats, and {', '.join(c.came_out) or 'nothing'} comes out: {c.trouble or c.lie}")
@@ -192,7 +209,12 @@ class Matrix(Value, frozen=True):
         """Are all mutants killed without spills, of each requirement one, all variants spared, and all cheats found out?"""
         badly_said = any(mutant.wrongly_said for mutant in self.mutants)
         wrong = self.survivors or self.spilling or badly_said or self.wronged or self.undetected or self.unproved
-        return not (wrong or self.left_out)
+        return not (wrong or self.left_out or self.further_on_average > MOST_FURTHER)
+
+    @property
+    def further_on_average(self) -> float:
+        """How many requirements a mutant fails besides those that it declares, on average."""
+        return sum(len(mutant.further) for mutant in self.mutants) / max(1, len(self.mutants))
 
 
 def by_clause(mutants: Iterable[MutantResult]) -> dict[str, list[MutantResult]]:

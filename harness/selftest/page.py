@@ -79,7 +79,8 @@ def _marks(line: int, mutant: MutantResult, column_of: dict[str, int]) -> Iterat
         if kill.requirement in mutant.breaks:
             kind = "killed" if kill.names_the_place else "misplaced"
         else:
-            kind = "also" if kill.requirement in mutant.also else "spill"
+            is_spill = kill in mutant.spills
+            kind = "spill" if is_spill else "also"
         yield _mark(line, column_of[kill.requirement], kind, f"{mutant.name}, {kill.requirement}: {kill.observed}")
     shown = {kill.requirement for kill in mutant.kills}
     for requirement in mutant.breaks:

@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
+from ucm_cts.adapters.mutants.python import Mutant
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
@@ -71,6 +72,21 @@ class Product:
             if len(declared) > 1 or seen.issuperset(declared):
                 _tell(failing, name, monitor.judge(scenario, _trace(name, answer)).findings)
         return failing
+
+
+DERIVED = ("provocation/", "refusal/", "duration/", "boundary/", "later use/", "contention/", "crowd/")
+"""Names of scenarios of the dimensions begin so. They do so much that many defects break further requirements there: the
+self-test proves that their findings name the defect, and counts them.
+"""
+
+
+def spilled(mutant: Mutant, failing: Mapping[str, str]) -> dict[str, str]:
+    """What ``mutant`` fails in scenarios written for one situation, although it does not declare it."""
+    return {
+        requirement: example
+        for requirement, example in failing.items()
+        if requirement not in (*mutant.requirements, *mutant.also) and not example.startswith(DERIVED)
+    }
 
 
 def failing_requirements(adapter: type[Adapter], declared: Mapping[str, str] = {}) -> dict[str, str]:
