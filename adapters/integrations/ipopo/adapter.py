@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pelix.ipopo.decorators as ipopo
@@ -21,7 +21,6 @@ from pelix.ipopo.handlers.constants import PROP_HANDLER_ID, HandlerFactory
 
 from ucm_cts.adapters.contract import programming_model as ucm
 from ucm_cts.adapters.contract.adapter import Adapter
-from ucm_cts.adapters.sdk.python.forwarding import ContainerMembers
 
 logging.basicConfig(level=os.environ.get("UCM_CTS_IPOPO_LOG", logging.CRITICAL + 1))  # WARNING: what callbacks raise
 _MODULES = {name: importlib.import_module(name) for name in ("pelix.ipopo.core", *BUILTIN_HANDLERS)}
@@ -132,7 +131,7 @@ class IpopoAdapter(Adapter):
         for attribute in filter(context.properties.__contains__, component.attributes):
             body.set_attribute(attribute, context.properties[attribute])
         if isinstance(body, ucm.FragmentObject):
-            body.set_container_interface(ContainerMembers(self, container))
+            body.set_container_interface(SimpleNamespace(get_components=lambda: self.get_components(container)))
         body.on_init()
         self._bodies[context.name] = body
         return ()
