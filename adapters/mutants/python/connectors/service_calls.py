@@ -85,7 +85,7 @@ class finds_methods_by_name(Services):
         return super()._request(method, arguments) if not others else Link._request(others[0], method, arguments)
 
 
-@alters("link", _TEMPLATE, clauses=_CLAUSES, also=("R-10.1.1-07",))
+@alters("link", "R-10.1.5.1-01", clauses=_CLAUSES, also=("R-10.1.1-07", _TEMPLATE))
 def binds_the_template_once(self: Base, link: Link, connector: str, interface: Interface) -> Link:
     """All service connectors of a runtime have the interface of the first one."""
     first = next(k for k in self.manager.links if k.connector == connector)

@@ -63,7 +63,7 @@ def reaches_seven_receivers(self: Link, method: str, arguments: Sequence[Datum])
         self.takers = takers
 
 
-@replaces("_emit", "R-10.1.6.1-04", clauses=("10.1.6",))
+@replaces("_emit", "R-10.1.6.1-04", clauses=("10.1.6",), also=("R-10.1.6.1-08",))
 def reaches_two_receivers(self: Link, method: str, arguments: Sequence[Datum]) -> str:
     """The third receiver of a connection gets no messages, and push returns ok."""
     takers = self.takers
