@@ -25,6 +25,12 @@ from ucm_cts.reference_models.monitor import Monitor
 _TIME = re.compile(rb'"t":\d+')
 
 
+DERIVED = ("provocation/", "refusal/", "duration/", "boundary/", "later use/", "contention/", "crowd/")
+"""Names of scenarios of the dimensions begin so. They do so much that many defects break further requirements there: the
+self-test proves that their findings name the defect, and counts them.
+"""
+
+
 class Judged(NamedTuple):
     """The verdicts of the monitor on one trace under no statement: findings, readings seen by option, requirements exercised."""
 
@@ -43,16 +49,21 @@ class Product:
     """A framework that has been through the container profile, under the readings that its vendor declares.
 
     ``failing`` are the failing requirements, each with an example, ``exercised`` those that were exercised at all,
-    ``readings`` what it makes of the freedoms of the text.
+    ``readings`` what it makes of the freedoms of the text. Scenarios of the dimensions come last, and end when all of
+    ``enough`` have failed.
     """
 
-    def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}) -> None:
+    def __init__(
+        self, adapter: type[Adapter], declared: Mapping[str, str] = {}, enough: frozenset[str] = frozenset()
+    ) -> None:
         self.failing: dict[str, str] = {}
         self.readings: dict[str, set[str]] = {}
         self.exercised: set[str] = set()
         self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
         engine, stated = Engine(adapter), tuple(sorted(declared.items()))
         for line, (name, scenario) in _prepared(stated).items():
+            if enough and name.startswith(DERIVED) and enough <= self.failing.keys():
+                break
             answer = engine.answer(line)
             key = stated, line, _TIME.sub(b"", answer)
             if key not in _known:
@@ -74,12 +85,6 @@ class Product:
         return failing
 
 
-DERIVED = ("provocation/", "refusal/", "duration/", "boundary/", "later use/", "contention/", "crowd/")
-"""Names of scenarios of the dimensions begin so. They do so much that many defects break further requirements there: the
-self-test proves that their findings name the defect, and counts them.
-"""
-
-
 def spilled(mutant: Mutant, failing: Mapping[str, str]) -> dict[str, str]:
     """What ``mutant`` fails in scenarios written for one situation, although it does not declare it."""
     return {
@@ -89,9 +94,9 @@ def spilled(mutant: Mutant, failing: Mapping[str, str]) -> dict[str, str]:
     }
 
 
-def failing_requirements(adapter: type[Adapter], declared: Mapping[str, str] = {}) -> dict[str, str]:
-    """Failing requirements, each with an example: scenario, expected, observed."""
-    return Product(adapter, declared).failing
+def failing_requirements(mutant: Mutant) -> dict[str, str]:
+    """Failing requirements of ``mutant``, each with an example: scenario, expected, observed."""
+    return Product(mutant.adapter, mutant.readings, frozenset(mutant.requirements)).failing
 
 
 def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | list[Finding]) -> None:
@@ -108,7 +113,7 @@ def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario]]:
         for name, plain in purpose.scenarios:
             scenario = disguise.scenario(payloads.deal(plain))
             prepared.setdefault(encode(Run(0, scenario)), (name, scenario))
-    return prepared
+    return dict(sorted(prepared.items(), key=lambda case: case[1][0].startswith(DERIVED)))
 
 
 def _trace(name: str, answer: bytes) -> Trace:

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.mark.parametrize("mutant", mutants_of(CONTAINER).values(), ids=mutants_of(CONTAINER).keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
-    failing = failing_requirements(mutant.adapter, mutant.readings)
+    failing = failing_requirements(mutant)
     missed = set(mutant.requirements) - set(failing)
     assert not missed, f"{mutant.name} survives {missed}; it fails {failing}"
     assert not spilled(mutant, failing)
