@@ -35,6 +35,7 @@ class Mutant(Value, frozen=True, tag="mutant", tag_field="kind"):
     ``requirements``: those that it breaks.
     ``missed``: those of them that it did not fail as it must.
     ``spills``: requirements that it fails although it does not break them.
+    ``further``: requirements that its defect breaks besides those that it declares.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Mutant(Value, frozen=True, tag="mutant", tag_field="kind"):
     requirements: tuple[str, ...]
     missed: tuple[str, ...] = ()
     spills: tuple[str, ...] = ()
+    further: tuple[str, ...] = ()
 
 
 class Variant(Value, frozen=True, tag="variant", tag_field="kind"):
@@ -109,7 +111,8 @@ def _lines(matrix: Matrix) -> Iterator[Line]:
     yield SelfTest(matrix.suite_version, len(matrix.testable), tuple(sorted(matrix.unproved)))
     for mutant in sorted(matrix.mutants, key=lambda m: m.name):
         spills = tuple(sorted({kill.requirement for kill in mutant.spills}))
-        yield Mutant(mutant.name, mutant.is_killed, mutant.breaks, mutant.survives, spills)
+        further = tuple(sorted({kill.requirement for kill in mutant.further}))
+        yield Mutant(mutant.name, mutant.is_killed, mutant.breaks, mutant.survives, spills, further)
     for variant in sorted(matrix.variants, key=lambda v: v.name):
         yield Variant(variant.name, variant.is_spared, tuple(sorted({kill.requirement for kill in variant.failed})))
     for cheat in sorted(matrix.cheats, key=lambda c: c.name):

@@ -115,7 +115,7 @@ def _left(
 _OVER: dict[str, str] = {
     "on_init": "R-11.2.3-05",
     "on_connect": "R-11.2.1.3-02",
-    "on_disconnect": "R-11.2.1.3-05",
+    "on_disconnect": _DISCONNECTS_ALL,
     "on_startup": _STARTS_ALL,
     "on_shutdown": _STOPS_ALL,
     "on_remove": "R-11.2.1.2-06",

@@ -67,7 +67,7 @@ class Product:
             answer = engine.answer(line)
             key = stated, line, _TIME.sub(b"", answer)
             if key not in _known:
-                _known[key] = _judged(stated, name, scenario, answer)
+                _known[key] = _judged(stated, name, scenario, answer, is_wrong=bool(enough))
             _tell(self.failing, name, _known[key].findings)
             self.exercised |= _known[key].exercised
             for option, values in _known[key].readings.items():
@@ -122,10 +122,12 @@ def _trace(name: str, answer: bytes) -> Trace:
     return traced.events
 
 
-def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes) -> Judged:
+def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes, is_wrong: bool) -> Judged:
     traced = from_host_decoder().decode(answer)
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, bool(traced.stuck))
+    if problem is not None and is_wrong:  # an incident, in a run
+        return Judged((), {}, frozenset())
     assert problem is None, (name, problem)
     verdicts = _monitor_of(declared).judge(scenario, traced.events)
     readings = {option: frozenset(values) for option, values in verdicts.readings.items()}
