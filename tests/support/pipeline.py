@@ -18,6 +18,7 @@ from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
@@ -92,6 +93,13 @@ def spilled(mutant: Mutant, failing: Mapping[str, str]) -> dict[str, str]:
         for requirement, example in failing.items()
         if requirement not in (*mutant.requirements, *mutant.also) and not example.startswith(DERIVED)
     }
+
+
+def check_killed(mutant: Mutant) -> None:
+    """Examine ``mutant`` as the self-test does: in a host, under the statement, with each finding compared."""
+    result = examine_mutant(all_mutants()[mutant.name], Thoroughness(quick=True))
+    assert result.is_killed, (result.survives, result.trouble)
+    assert not result.spills
 
 
 def failing_requirements(mutant: Mutant) -> dict[str, str]:
