@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import msgspec
 import pytest
 from performing import answer
-from pipeline import spilled
+from pipeline import check_killed, spilled
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Burst, Scenario
@@ -80,6 +80,5 @@ def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
     found = failing(mutant.adapter, mutant.clauses, SHORT, mutant.readings, enough)
     if spilled(mutant, found):  # a busy machine needs more patience
         found = failing(mutant.adapter, mutant.clauses, 1, mutant.readings, enough)
-    missed = set(mutant.requirements) - set(found)
-    assert not missed, f"{mutant.name} survives {missed}; it fails {found}"
-    assert not spilled(mutant, found)
+    if not found.keys() >= set(mutant.requirements) or spilled(mutant, found):
+        check_killed(mutant)

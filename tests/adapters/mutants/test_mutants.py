@@ -3,29 +3,21 @@
 from __future__ import annotations
 
 import pytest
-from pipeline import failing_requirements, spilled
+from pipeline import check_killed, failing_requirements, spilled
 
 from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant, mutants_of
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.execution.leftovers import HOST_CHECKS
-from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
 from ucm_cts.reference_models.properties.table import PROPERTIES
 
 pytestmark = pytest.mark.slow
-
-QUICK = Thoroughness(quick=True)
 
 
 @pytest.mark.parametrize("mutant", mutants_of(CONTAINER).values(), ids=mutants_of(CONTAINER).keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
     failing = failing_requirements(mutant)
-    if failing.keys() >= set(mutant.requirements) and not spilled(mutant, failing):
-        return
-    result = examine_mutant(
-        all_mutants()[mutant.name], QUICK
-    )  # in a host, under the statement, with each finding examined
-    assert result.is_killed, (result.survives, result.trouble)
-    assert not result.spills
+    if not failing.keys() >= set(mutant.requirements) or spilled(mutant, failing):
+        check_killed(mutant)
 
 
 def test_every_testable_requirement_has_a_mutant() -> None:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import msgspec
 import pytest
 from performing import answer
-from pipeline import spilled
+from pipeline import check_killed, spilled
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -76,6 +76,5 @@ def test_conformant_framework_is_not_failed(variant: Variant) -> None:
 @pytest.mark.parametrize("mutant", mutants_of(POLICIES).values(), ids=mutants_of(POLICIES).keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
     found = failing(mutant.adapter, mutant.readings, frozenset(mutant.requirements))
-    missed = set(mutant.requirements) - set(found)
-    assert not missed, f"{mutant.name} survives {missed}; it fails {found}"
-    assert not spilled(mutant, found)
+    if not found.keys() >= set(mutant.requirements) or spilled(mutant, found):
+        check_killed(mutant)
