@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from ucm_cts.adapters.contract.value import Value
 
 MOST_FURTHER = 1
-"""So many requirements may a mutant fail, on average, besides those that it declares."""
+"""The largest permitted average of requirements that a mutant fails besides those that it declares."""
 
 
 class Kill(Value, frozen=True):

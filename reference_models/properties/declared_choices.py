@@ -50,7 +50,7 @@ def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgr
     taken = " or ".join(reading.replace("=", " = ") for reading in fit.readings)
     yield check.fail(
         f"{row.id} {taken}",
-        expected=f"{ongoing.what} goes as the vendor declares: {', '.join(declared)}",
+        expected=f"{ongoing.what} as declared: {', '.join(declared)}",
         observed=f"it went as with {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
         ended=ongoing,
         requirement=row.requirement,

@@ -26,9 +26,9 @@ from ucm_cts.reference_models.monitor import Monitor
 _TIME = re.compile(rb'"t":\d+')
 
 
-DERIVED = ("provocation/", "refusal/", "duration/", "boundary/", "later use/", "contention/", "crowd/")
-"""Names of scenarios of the dimensions begin so. They do so much that many defects break further requirements there: the
-self-test proves that their findings name the defect, and counts them.
+DERIVED = ("provocation/", "refusal/", "duration/", "boundary/", "later use/", "contention/")
+"""Beginnings of the names of scenarios of the dimensions. Many defects break further requirements there: the self-test checks that
+the findings name the defect, and counts these requirements.
 """
 
 

@@ -561,7 +561,7 @@ def test_a_declared_reading_that_is_not_taken_fails_and_replays(here: Path) -> N
     assert json.loads(scenario.read_text())["exercises"] == ["R-11.2.3-11"]
     (here / "mine.toml").unlink()
     words = [word if "/" not in word else f"out/{word}" for word in shlex.split(replay)[1:]]
-    assert "remove-while-ready = ca" in ucm_cts(*words).out  # cut where a terminal ends
+    assert "remove-while-ready = cascade" in ucm_cts(*words).out
     assert "no findings" in ucm_cts("replay", scenario, "reference-py").out
     ucm_cts("run", "reference-py", "-k", "R-11.2.3-11", "--out", "out")
     assert "R-11.2.3-11.json" not in {path.name for path in (here / "out" / "failures").iterdir()}
