@@ -276,7 +276,7 @@ class TemplateProcess:
         while b"\n" not in self._unread:
             if len(self._unread) > _LONGEST_LINE:
                 raise ControlBroken(f"the adapter writes to {_CONTROL_CHANNEL}")
-            if not select.select([self._control], [], [], max(deadline - time.monotonic(), 0))[0]:
+            if not _is_readable(self._control.fileno(), max(deadline - time.monotonic(), 0)):
                 return None
             data = self._control.recv(4096)
             if not data:
@@ -318,9 +318,16 @@ def _has_ended(pid: int, seconds: float) -> bool:
     except OSError:
         return True
     try:
-        return bool(select.select([handle], [], [], seconds)[0])
+        return _is_readable(handle, seconds)
     finally:
         os.close(handle)
+
+
+def _is_readable(descriptor: int, seconds: float) -> bool:
+    """Whether ``descriptor`` can be read, or has come to its end, within ``seconds``. A process may have thousands of them."""
+    poll = select.poll()
+    poll.register(descriptor, select.POLLIN)
+    return bool(poll.poll(seconds * 1000))
 
 
 def _ending(status: int) -> str:

@@ -23,6 +23,7 @@ from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
+from ucm_cts.harness.purposes.provocations.dimensions import FAMILIES
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.failures import length
 from ucm_cts.harness.results.statement import Statement
@@ -84,8 +85,8 @@ class Thoroughness:
     """How much is run.
 
     ``seed``: of the run.
-    ``whole``: the whole profile instead of the subject's own clauses.
-    ``quick``: end when a mutant is killed.
+    ``whole``: the whole profile instead of the subject's own clauses, for a mutant that is killed, too.
+    ``quick``: end when a mutant is killed; otherwise it is spared what is derived from dimensions then.
     ``beginning``: only purposes whose names begin so.
     """
 
@@ -196,13 +197,11 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
     try:
         with _being(subject), Driver(locate(subject.adapter), how.seed, LIMITS) as driver:
             campaign = Campaign(driver, profile, (), statement)
-            for checked in campaign.check(_purposes(subject, how, profile, statement)):
-                for finding, execution in checked.failures:
-                    if finding is not None:
-                        ran.shown.setdefault(finding.requirement, []).append((finding, execution))
-                ran.scenarios += checked.executions
-                if how.quick and subject.breaks and _is_enough(ran, subject):
-                    break
+            purposes = _purposes(subject, how, profile, statement)
+            derived = [purpose for purpose in purposes if purpose.id.startswith(FAMILIES)]
+            written = [purpose for purpose in purposes if not purpose.id.startswith(FAMILIES)]
+            _check(ran, subject, campaign, written, may_end=how.quick)
+            _check(ran, subject, campaign, derived, may_end=not how.whole)
             ran.incidents = _incidents_of(campaign)
     except (HostUnavailable, WrongUse) as problem:
         ran.trouble = str(problem)
@@ -210,12 +209,25 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
     return ran
 
 
+def _check(ran: _Trial, subject: Subject, campaign: Campaign, purposes: Sequence[TestPurpose], may_end: bool) -> None:
+    """Add what ``purposes`` show; with ``may_end`` only until a mutant is killed."""
+    if may_end and _is_killed(ran, subject):
+        return
+    for checked in campaign.check(purposes):
+        for finding, execution in checked.failures:
+            if finding is not None:
+                ran.shown.setdefault(finding.requirement, []).append((finding, execution))
+        ran.scenarios += checked.executions
+        if may_end and _is_killed(ran, subject):
+            return
+
+
 def _being(subject: Subject) -> AbstractContextManager[None]:
     return being(subject.name) if subject.is_native else nullcontext()
 
 
-def _is_enough(ran: _Trial, subject: Subject) -> bool:
-    return (any if subject.is_rare else all)(
+def _is_killed(ran: _Trial, subject: Subject) -> bool:
+    return bool(subject.breaks) and (any if subject.is_rare else all)(
         requirement in ran.shown and ran.kill(subject, requirement).names_the_place for requirement in subject.breaks
     )
 
@@ -226,8 +238,10 @@ def _incidents_of(campaign: Campaign) -> tuple[str, ...]:
 
 
 def _purposes(subject: Subject, how: Thoroughness, profile: str, statement: Statement) -> Sequence[TestPurpose]:
+    """Those for what the subject breaks come first."""
     purposes = [p for p in purposes_for(statement, profile) if p.id.startswith(how.beginning)]
-    return purposes if how.whole else [p for p in purposes if p.clause.startswith(subject.clauses)]
+    own = purposes if how.whole else [p for p in purposes if p.clause.startswith(subject.clauses)]
+    return sorted(own, key=lambda purpose: not set(subject.breaks).intersection(purpose.requirements))
 
 
 def _statement(subject: Subject) -> Statement:

@@ -17,6 +17,7 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.provocations.dimensions import FAMILIES
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
 from ucm_cts.reference_models.findings import Finding
@@ -24,12 +25,6 @@ from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
 _TIME = re.compile(rb'"t":\d+')
-
-
-DERIVED = ("provocation/", "refusal/", "duration/", "boundary/", "later use/", "contention/")
-"""Beginnings of the names of scenarios of the dimensions. Many defects break further requirements there: the self-test checks that
-the findings name the defect, and counts these requirements.
-"""
 
 
 class Judged(NamedTuple):
@@ -50,25 +45,23 @@ class Product:
     """A framework that has been through the container profile, under the readings that its vendor declares.
 
     ``failing`` are the failing requirements, each with an example, ``exercised`` those that were exercised at all,
-    ``readings`` what it makes of the freedoms of the text. Scenarios of the dimensions come last, and end when all of
-    ``enough`` have failed.
+    ``readings`` what it makes of the freedoms of the text. One that ``is_wrong`` may crash, hang or keep files: it is
+    spared what is derived from dimensions.
     """
 
-    def __init__(
-        self, adapter: type[Adapter], declared: Mapping[str, str] = {}, enough: frozenset[str] = frozenset()
-    ) -> None:
+    def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}, is_wrong: bool = False) -> None:
         self.failing: dict[str, str] = {}
         self.readings: dict[str, set[str]] = {}
         self.exercised: set[str] = set()
         self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
         engine, stated = Engine(adapter), tuple(sorted(declared.items()))
         for line, (name, scenario) in _prepared(stated).items():
-            if enough and name.startswith(DERIVED) and enough <= self.failing.keys():
-                break
+            if is_wrong and name.startswith(FAMILIES):
+                continue
             answer = engine.answer(line)
             key = stated, line, _TIME.sub(b"", answer)
             if key not in _known:
-                _known[key] = _judged(stated, name, scenario, answer, is_wrong=bool(enough))
+                _known[key] = _judged(stated, name, scenario, answer, is_wrong)
             _tell(self.failing, name, _known[key].findings)
             self.exercised |= _known[key].exercised
             for option, values in _known[key].readings.items():
@@ -87,12 +80,9 @@ class Product:
 
 
 def spilled(mutant: Mutant, failing: Mapping[str, str]) -> dict[str, str]:
-    """What ``mutant`` fails in scenarios written for one situation, although it does not declare it."""
-    return {
-        requirement: example
-        for requirement, example in failing.items()
-        if requirement not in (*mutant.requirements, *mutant.also) and not example.startswith(DERIVED)
-    }
+    """What ``mutant`` fails although it does not declare it."""
+    declared = {*mutant.requirements, *mutant.also}
+    return {requirement: example for requirement, example in failing.items() if requirement not in declared}
 
 
 def check_killed(mutant: Mutant) -> None:
@@ -104,7 +94,7 @@ def check_killed(mutant: Mutant) -> None:
 
 def failing_requirements(mutant: Mutant) -> dict[str, str]:
     """Failing requirements of ``mutant``, each with an example: scenario, expected, observed."""
-    return Product(mutant.adapter, mutant.readings, frozenset(mutant.requirements)).failing
+    return Product(mutant.adapter, mutant.readings, is_wrong=True).failing
 
 
 def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | list[Finding]) -> None:
@@ -121,7 +111,7 @@ def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario]]:
         for name, plain in purpose.scenarios:
             scenario = disguise.scenario(payloads.deal(plain))
             prepared.setdefault(encode(Run(0, scenario)), (name, scenario))
-    return dict(sorted(prepared.items(), key=lambda case: case[1][0].startswith(DERIVED)))
+    return prepared
 
 
 def _trace(name: str, answer: bytes) -> Trace:

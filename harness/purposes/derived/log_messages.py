@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
+from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.1.4.2"
@@ -55,14 +55,14 @@ def log_message_purposes() -> list[TestPurpose]:
             "log/wide texts",
             "Messages are written that are empty, long, not ASCII or beyond the Basic Multilingual Plane.",
             ("R-10.1.4.2-47", "R-10.1.4.2-26"),
-            _written("warning", _WIDE, more=1),
+            _written("warning", _WIDE),
             under=("log-message=wide-unbounded",),
         ),
         _purpose(
             "log/many records",
             "So many messages are written that a seldom loss shows.",
             ("R-10.1.4.2-26", "R-10.1.4.2-25", "R-10.1.4.2-51"),
-            _writing([(_COMMON[number % 4], f"record {number}") for number in range(_MANY)], 0),
+            _writing([(_COMMON[number % 4], f"record {number}") for number in range(_MANY)]),
         ),
         _purpose(
             "log/severities of the model",
@@ -81,16 +81,15 @@ def log_message_purposes() -> list[TestPurpose]:
     ]
 
 
-def _written(severity: str, texts: Sequence[str], more: int = 0) -> Scenario:
-    """Waits for ``more`` records than the component writes, so that a further record has time to come."""
-    return _writing([(severity, text) for text in texts], more)
+def _written(severity: str, texts: Sequence[str]) -> Scenario:
+    return _writing([(severity, text) for text in texts])
 
 
 def _with_severities(*severities: str) -> Scenario:
-    return _writing([(severity, f"message of {severity}") for severity in (*severities, *_COMMON)], 0)
+    return _writing([(severity, f"message of {severity}") for severity in (*severities, *_COMMON)])
 
 
-def _writing(messages: Sequence[tuple[str, str]], more: int) -> Scenario:
+def _writing(messages: Sequence[tuple[str, str]]) -> Scenario:
     calls = tuple(s.CallMethod(_TRACE, "log", message) for message in messages)
     policies = (_UNPROTECTED, Policy(s.COMPONENT_TRACE, element=_TRACE))
     writer = Declaration(("in.api",), plan={"exchange": calls}, policies=policies)
@@ -99,14 +98,12 @@ def _writing(messages: Sequence[tuple[str, str]], more: int) -> Scenario:
         s.GetPortElement("writer", "in.api", "api"),
         s.Start(),
         s.Invoke("api", 1),
-        *(_read(len(messages)) if not more else (s.ReadLog(len(messages) + more),)),
+        s.ReadLog(len(messages)),
+        s.Pause(_LATER),
+        s.ReadLog(len(messages)),
         s.Stop(),
     )
     return Scenario({"writer": writer}, steps)
-
-
-def _read(records: int) -> tuple[Step, ...]:
-    return s.ReadLog(records), s.Pause(_LATER), s.ReadLog(records)
 
 
 def _purpose(

@@ -32,7 +32,6 @@ _REPEATED = ("on_startup", "on_shutdown", "on_connect")
 """Callbacks that the past of an application would lead into before the operation does."""
 
 _CALL = s.CallPort("out.api", 4)
-_PATIENCE = 2000
 
 
 class Application:
