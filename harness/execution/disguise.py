@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 import re
 import string
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeVar
 
 import msgspec
@@ -31,6 +31,9 @@ LONGEST_NAME = 100
 """Characters that the pattern of names of port elements may have."""
 
 _LETTERS = "bcdfghjklmnpqrstvwxz"
+_NUMBER = r"(?<!\d)-?\d{10,}(?!\d)"
+"""What may be a payload: it is never a part of a longer number, such as a time."""
+
 _WORD = re.compile(r"\w{2,32}")
 """An attribute value that says nothing but its name."""
 
@@ -72,11 +75,16 @@ class Disguise:
     def reveal(self, value: T) -> T:
         """``value``, any message value or finding, in the script's own names and payloads."""
         if self._pattern is None:
-            alternatives = sorted(self._plain, key=len, reverse=True)
-            self._pattern = re.compile("|".join(map(_found, alternatives)) or r"(?!)")
+            names = sorted((name for name in self._plain if not name.lstrip("-").isdigit()), key=len, reverse=True)
+            self._pattern = re.compile("|".join((_NUMBER, *_by_first_letter(names))))
         text = msgspec.json.encode(value).decode()
-        revealed = self._pattern.sub(lambda match: self._plain[match.group()], text)
+        revealed = self._pattern.sub(self._revealed, text)
         return msgspec.json.decode(revealed.encode(), type=type(value))
+
+    def _revealed(self, found: re.Match[str]) -> str:
+        text = found.group()
+        unsigned = text.removeprefix("-")
+        return self._plain.get(text) or text.removesuffix(unsigned) + self._plain.get(unsigned, unsigned)
 
     def _remember(self, disguised: str, plain: str) -> None:
         self._plain[_as_json(disguised)] = _as_json(plain)
@@ -189,9 +197,13 @@ class Disguise:
         return msgspec.structs.replace(value, **changed)
 
 
-def _found(disguised: str) -> str:
-    """A pattern for ``disguised``; a payload is never a part of a longer number, such as a time."""
-    return rf"(?<!\d){disguised}(?!\d)" if disguised.lstrip("-").isdigit() else re.escape(disguised)
+def _by_first_letter(names: Iterable[str]) -> Iterator[str]:
+    """One pattern for all of ``names`` that begin alike, so that each place of a text is compared with a few of them only."""
+    by_letter: dict[str, list[str]] = {}
+    for name in names:
+        by_letter.setdefault(name[0], []).append(re.escape(name[1:]))
+    for letter, rests in by_letter.items():
+        yield f"{re.escape(letter)}(?:{'|'.join(rests)})"
 
 
 def _as_json(text: str) -> str:

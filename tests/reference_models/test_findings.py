@@ -1,4 +1,4 @@
-"""What every finding about every wrong framework has: another observation than expected, and a name of what it is about."""
+"""What every finding has: another observation than expected, and a name of what it is about. Tests of mutants look at all of theirs."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import msgspec
 import pytest
 from made_up_run import Tape
 from performing import answer
+from pipeline import check_wording
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -19,14 +20,12 @@ from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.harness.selftest.wording import wrongly_said
-from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
 SEED = 15
 SOME = 8
-"""So many mutants are sampled where there is no time for all."""
+"""So many mutants are sampled."""
 
 EACH = 12
 """Of a mutant's scenarios one of so many is run."""
@@ -50,26 +49,12 @@ def traces_of(mutant: Mutant, each: int) -> Iterator[tuple[Scenario, Trace]]:
             yield asked, reply.events
 
 
-def assert_well_said(scenario: Scenario, finding: Finding) -> None:
-    assert not wrongly_said(scenario, finding), finding
-
-
-def assert_all_well_said(mutant: Mutant, each: int) -> None:
-    monitor = Monitor(load_life_cycle(), Ics(mutant.readings))
-    for scenario, trace in traces_of(mutant, each):
-        for finding in monitor.judge(scenario, trace).findings:
-            assert_well_said(scenario, finding)
-
-
 @pytest.mark.parametrize("name", random.Random(SEED).sample(sorted(MUTANTS), SOME))
 def test_findings_about_some_wrong_frameworks_are_well_said(name: str) -> None:
-    assert_all_well_said(MUTANTS[name], EACH)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(MUTANTS))
-def test_findings_about_each_wrong_framework_are_well_said(name: str) -> None:
-    assert_all_well_said(MUTANTS[name], EACH // 3)
+    mutant = MUTANTS[name]
+    monitor = Monitor(load_life_cycle(), Ics(mutant.readings))
+    for scenario, trace in traces_of(mutant, EACH):
+        check_wording(scenario, monitor.judge(scenario, trace).findings)
 
 
 def test_null_that_was_connected_is_rightly_told() -> None:
@@ -102,8 +87,7 @@ def test_null_that_was_connected_is_rightly_told() -> None:
     put(t.Return(0, 0, 0, 3, 9))
     findings = Monitor(load_life_cycle()).judge(scenario, events).findings
     assert [finding.rule for finding in findings] == ["port_element_identity"]
-    for finding in findings:
-        assert_well_said(scenario, finding)
+    check_wording(scenario, findings)
 
 
 def test_operations_of_a_destroyed_runtime_are_not_judged() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.adapter import Adapter
@@ -20,6 +20,7 @@ from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.provocations.dimensions import FAMILIES
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
+from ucm_cts.harness.selftest.wording import wrongly_said
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
@@ -92,6 +93,12 @@ def check_killed(mutant: Mutant) -> None:
     assert not result.spills
 
 
+def check_wording(scenario: Scenario, findings: Iterable[Finding]) -> None:
+    """Each finding must expect something else than what was observed, and name what it is about."""
+    for finding in findings:
+        assert not wrongly_said(scenario, finding), finding
+
+
 def failing_requirements(mutant: Mutant) -> dict[str, str]:
     """Failing requirements of ``mutant``, each with an example: scenario, expected, observed."""
     return Product(mutant.adapter, mutant.readings, is_wrong=True).failing
@@ -128,6 +135,7 @@ def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes, is
         return Judged((), {}, frozenset())
     assert problem is None, (name, problem)
     verdicts = _monitor_of(declared).judge(scenario, traced.events)
+    check_wording(scenario, verdicts.findings)
     readings = {option: frozenset(values) for option, values in verdicts.readings.items()}
     return Judged(tuple(verdicts.findings), readings, frozenset(verdicts.exercises))
 

@@ -6,14 +6,14 @@ shows what is left of the framework.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
-from ucm_cts.adapters.contract.traits import bound_by, used_by
 from ucm_cts.harness.purposes.provocations.dimensions import Cell
+from ucm_cts.harness.purposes.provocations.possible import possible
 
 _GATE, _SECOND = "inside", "second box"
 _SERVER, _SUBJECT, _NEIGHBOUR, _OTHER, _TWIN = "server", "subject", "neighbour", "other", "twin"
@@ -55,8 +55,8 @@ class Application:
 
     def scenario(self) -> Scenario:
         """Set up, operate, see what is left."""
-        steps = _with_what_is_there((*self._set_up(), *self._operate(), *self._complete(), *self._afterwards()))
-        return Scenario(self.components, steps, _PATIENCE)
+        steps = (*self._set_up(), *self._operate(), *self._complete(), *self._afterwards())
+        return Scenario(self.components, possible(steps, self.components), _PATIENCE)
 
     # the way to the entrance
 
@@ -233,17 +233,6 @@ class Application:
                 return (s.Destroy(),)
             case _:
                 return (*self._another(s.MANAGER), s.GetComponents())
-
-
-def _with_what_is_there(steps: Iterable[Step]) -> tuple[Step, ...]:
-    """``steps`` without those that need what none of them has made before, such as a connection."""
-    there = {s.MANAGER, s.NIL, s.UNKNOWN}
-    kept = []
-    for step in steps:
-        if there.issuperset(used_by(step)):
-            there.update(bound_by(step))
-            kept.append(step)
-    return tuple(kept)
 
 
 def _reference(name: str) -> str:

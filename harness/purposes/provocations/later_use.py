@@ -10,11 +10,13 @@ from ucm_cts.adapters.contract.traits import used_by
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import read
 from ucm_cts.harness.catalogue.requirements import SUITE
+from ucm_cts.harness.purposes.provocations.possible import possible
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _BOX, _NEW, _ROOT = "box", "new box", "root"
 _REQUIREMENTS = ("R-12.10-05", "R-12.10-06", "R-12.10-07", "R-12.10-08")
 _COMPONENTS = {
+    "anchor": Declaration(("in.api",), attributes={"label": "anchor", "level": "low"}),
     "server": Declaration(("in.api",), attributes={"label": "server", "level": "low"}),
     "client": Declaration(
         ("in.api",),
@@ -34,6 +36,7 @@ _SET_UP: tuple[Step, ...] = (
     *(s.AddComponent(name) for name in _COMPONENTS),
     *(s.GetPortElement(name, "in.api", f"to {name}") for name in _COMPONENTS),
     s.Connect("client", "out.api", "to server", "link"),
+    s.Connect("bystander", "out.api", "to anchor", "own link"),
     s.Start(),
     s.Invoke("to client", 1),
     s.Stop(),
@@ -84,7 +87,9 @@ def _has_all(steps: tuple[Step, ...]) -> bool:
 def _scenario(home: str, steps: tuple[Step, ...]) -> Scenario:
     """The application, and the steps, in container ``home``."""
     created = () if home == s.MANAGER else (s.CreateContainer(home),)
-    return Scenario(_COMPONENTS, (*created, *(_within(home, step) for step in (*_SET_UP, *steps))))
+    return Scenario(
+        _COMPONENTS, possible((*created, *(_within(home, step) for step in (*_SET_UP, *steps))), _COMPONENTS)
+    )
 
 
 def _within(home: str, step: Step) -> Step:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import msgspec
 import pytest
 from performing import answer
-from pipeline import check_killed, spilled
+from pipeline import check_killed, check_wording, spilled
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Burst, Scenario
@@ -49,7 +49,9 @@ def failing(
         assert isinstance(reply, Traced), (name, reply)
         problem = contradiction(asked, reply.events, bool(reply.stuck))
         assert problem is None, (name, problem)
-        for finding in monitor.judge(asked, reply.events).findings:
+        findings = monitor.judge(asked, reply.events).findings
+        check_wording(asked, findings)
+        for finding in findings:
             found.setdefault(finding.requirement, _reported(name, finding))
         if enough and enough <= found.keys():
             break

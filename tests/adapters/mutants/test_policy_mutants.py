@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import msgspec
 import pytest
 from performing import answer
-from pipeline import check_killed, spilled
+from pipeline import check_killed, check_wording, spilled
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -57,7 +57,9 @@ def failing(
         assert isinstance(reply, Traced), (name, reply)
         problem = contradiction(asked, reply.events, bool(reply.stuck))
         assert problem is None, (name, problem)
-        for f in monitor.judge(asked, reply.events).findings:
+        findings = monitor.judge(asked, reply.events).findings
+        check_wording(asked, findings)
+        for f in findings:
             found.setdefault(f.requirement, f"{name}: expected {f.expected}; observed {f.observed}")
         if enough and enough <= found.keys():
             break

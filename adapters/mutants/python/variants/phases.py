@@ -64,13 +64,19 @@ def connects_nothing_to_itself(self: Base, instance: int, port_name: str, to_por
 
 
 class _Waiting(Proxy):
-    """Calls wait until the component is ready."""
+    """Calls wait until the component is ready, and fail if it is no component any more."""
 
     ready: threading.Condition
+    container: Container
+
+    def _is_removed(self) -> bool:
+        return all(self.member not in each.members.values() for each in _all_containers(self.container))
 
     def exchange(self, value: int) -> int:
         with self.ready:
-            self.ready.wait_for(lambda: self.member.state is State.READY)
+            self.ready.wait_for(lambda: self.member.state is State.READY or self._is_removed())
+        if self._is_removed():
+            raise UcmError("the component has been removed")
         return self.target.exchange(value)
 
 
@@ -83,7 +89,7 @@ class calls_wait_for_the_start(GivesOutProxies):
     def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
         proxy = super().get_port_element(comp_instance, port_name)
         assert isinstance(proxy, _Waiting)
-        proxy.ready = _changes_of(self)
+        proxy.ready, proxy.container = _changes_of(self), self
         return proxy
 
     def start(self) -> None:
