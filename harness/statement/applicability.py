@@ -108,6 +108,8 @@ def _is_test_operation(need: str, statement: Statement) -> bool:
 _MISSING_POLICY = "R-10.1.3-02"
 _REFUSED_WITHOUT = "missing-execution-policy=refuse"
 _ON_COMPONENTS = "protected-active-applicability=onComponent"
+_TRACED_PORTS = "port-trace-applicability=onPort|onBoth"
+_TRACE_PARAMETERS = "port-trace-parameters=both"
 _WITH_MODELS = "core-models=shipped"
 
 
@@ -179,6 +181,8 @@ def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
     components = scenario.components
     if statement.meets(_ON_COMPONENTS):
         components = {name: _active_as_a_whole(declaration) for name, declaration in components.items()}
+    if not (statement.meets(_TRACED_PORTS) and statement.meets(_TRACE_PARAMETERS)):
+        components = {name: _traced_as_declared(declaration, statement) for name, declaration in components.items()}
     return msgspec.structs.replace(scenario, components=components, patience=max(1, patience), steps=steps)
 
 
@@ -190,3 +194,19 @@ def _active_as_a_whole(declaration: Declaration) -> Declaration:
         if policy != s.Policy(s.ACTIVE) or policy not in seen:
             seen.append(policy)
     return msgspec.structs.replace(declaration, policies=tuple(seen))
+
+
+def _traced_as_declared(declaration: Declaration, statement: Statement) -> Declaration:
+    """Port traces are attached to the component where ports cannot have them, and have no parameters where none are known."""
+    changes: dict[str, object] = {} if statement.meets(_TRACED_PORTS) else {"port": None}
+    if not statement.meets(_TRACE_PARAMETERS):
+        changes["parameters"] = {}
+    policies = (
+        msgspec.structs.replace(policy, **changes) if policy.definition == s.PORT_TRACE else policy
+        for policy in declaration.policies
+    )
+    kept: list[s.Policy] = []
+    for policy in policies:
+        if policy.definition != s.PORT_TRACE or policy not in kept:
+            kept.append(policy)
+    return msgspec.structs.replace(declaration, policies=tuple(kept))

@@ -60,7 +60,7 @@ def service_contention_purposes() -> list[TestPurpose]:
     table = load_contention()
     purposes = []
     for what, (clause, requirements, make) in {
-        "clock": ("10.1.4.1", ("R-10.1.4.1-06", "R-10.1.4.1-08", "R-10.1.4.1-09", "R-10.1.4.1-10"), _clocks),
+        "clock": ("10.1.4.1", ("R-10.1.4.1-06", "R-10.1.4.1-08", "R-10.1.4.1-10"), _clocks),
         "log": ("10.1.4.2", ("R-10.1.4.2-26", "R-10.1.4.2-25", "R-10.1.4.2-51", "R-10.1.4.2-53"), _logs),
         "service": ("10.1.5.1", ("R-10.1.5.1-04", "R-10.1.5.1-01", "R-10.1.5.1-03"), _services),
         "messages": ("10.1.2", ("R-10.1.2-09", "R-10.1.2-10"), _messages),

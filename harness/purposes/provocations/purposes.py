@@ -51,16 +51,10 @@ def duration_purposes() -> list[TestPurpose]:
         (f"duration/call of a {kind}/{ms} ms, {home}", _slow_peer(ms, home, kind == "fragment"))
         for ms in durations
         for home in dimensions.places
-        for kind in (dimensions.kinds if ms < _LONG else (_kind_at(home),))
+        for kind in dimensions.kinds
     )
     text = "A component or fragment that another one calls takes its time."
     return [*purposes, TestPurpose("duration/call of a peer", "11.1.3", text, ("R-11.1.3-01", "R-11.1.2-02"), slow)]
-
-
-def _kind_at(home: str) -> str:
-    """One kind for each place, so that each kind and each place comes once."""
-    dimensions = load_dimensions()
-    return dict(zip(dimensions.places, dimensions.kinds, strict=True))[home]
 
 
 def _held_in(entrance: Entrance, place: str) -> Cell | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import msgspec
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Char, Integer
 from ucm_cts.adapters.contract.data_types import Sequence as SequenceType
@@ -169,4 +171,15 @@ class knows_no_parameters_of_port_traces(Base):
     def _check_service(self, implementation: Implementation, policy: s.Policy) -> None:
         if policy.definition == s.PORT_TRACE and policy.parameters:
             raise UcmError("port_trace has no parameters")
-        super()._check_service(implementation, policy)
+        super()._check_service(implementation, self._with_parameters(policy))
+
+    def _port_traces(self, member: Member, port: str) -> list[s.Policy]:
+        return [self._with_parameters(policy) for policy in super()._port_traces(member, port)]
+
+    def _is_traced(self, policy: s.Policy, method: str) -> bool:
+        return True
+
+    def _with_parameters(self, policy: s.Policy) -> s.Policy:
+        if policy.definition != s.PORT_TRACE:
+            return policy
+        return msgspec.structs.replace(policy, parameters={s.METHODS_TO_TRACE: "", s.LOG_SEVERITY: "info"})
