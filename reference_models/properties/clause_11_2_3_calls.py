@@ -7,7 +7,7 @@ from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.designation import error_name
-from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, call_guarantees
+from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, call_guarantees, connections_behind
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member, lane
@@ -125,6 +125,9 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
             return ()
     if not reply.raised:
         return check.kept()
+    handed_over = [c for c in connections_behind(caller, request.port) if c in (caller.handed_over or ())]
+    if not handed_over or any(connection.live is not True for connection in handed_over):
+        return ()  # the body calls through what it got at its start, and that connection has been undone
     expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
     return _violate(check, check.stands_for[0], "refused", expected, "the call raised", call.n, reply.n, providers[0])
 

@@ -385,7 +385,7 @@ def test_cpp_guide_with_cmake(vendor: Path) -> None:
 
 def test_cpp_guide_with_a_plain_compiler(vendor: Path) -> None:
     """Both adapters, one compiler call beside the other."""
-    (acme,) = commands("g++ -std")
+    acme, _sanitized = commands("g++ -std")
     beans = acme.replace("acme_adapter.cpp -lacme", "beans_adapter.cpp -o beans")
     framework = f"g++ -std=c++11 -I {FRAMEWORK}/src -c {FRAMEWORK}/src/*/*.cpp; ar rc libacme.a *.o"
     shell(f"{beans} & {framework}; {acme}; mkdir build; mv a.out build/acme_adapter; wait $!")

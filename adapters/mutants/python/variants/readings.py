@@ -10,6 +10,7 @@ from ucm_cts.adapters.mutants.python.registry import (
     CONTAINER,
     Base,
     GivesOutProxies,
+    HandsOverProxies,
     Proxy,
     is_below,
     variant,
@@ -100,6 +101,21 @@ class configures_at_any_time(Base):
             self.manager.connections[connection.id] = connection
         else:
             super()._connect(connection)
+
+
+class _EndsWithItsConnection(Proxy):
+    def exchange(self, value: int) -> int:
+        connections = self.member.container.manager.connections.values()
+        if not any(c.client is self.member and c.target is self.target for c in connections):
+            raise pm.UcmError("the connection has been undone")
+        return self.target.exchange(value)
+
+
+@variant_of(*CONTAINER, readings={"late-connect": "allowed", "late-disconnect": "allowed"})
+class breaks_what_it_undoes(HandsOverProxies, configures_at_any_time):
+    """The same, and what a body was given at its start ends with its connection."""
+
+    proxy = _EndsWithItsConnection
 
 
 @variant_of(*CONTAINER, readings={"start-unconfigured": "tolerate", "late-connect": "refuse"})
