@@ -13,7 +13,7 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.designation import designation
 from ucm_cts.reference_models.model.runtime import lane
 
-_VARIABLES = ("bind", "id", "connection", "link", "ref", "container")
+_VARIABLES = ("bind", "component", "id", "connection", "link", "ref", "container")
 
 
 class Namer:

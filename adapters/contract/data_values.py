@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 
 import msgspec
@@ -15,6 +16,8 @@ _DIGITS = {"FLOAT": 8, "DOUBLE": 16}
 _MANTISSA = {"FLOAT": 23, "DOUBLE": 52}
 _LARGEST = {"CHAR8": 0xFF, "CHAR32": 0x10FFFF}
 _SURROGATES = range(0xD800, 0xE000)
+_LONGEST = 60
+"""The most characters of a value that are shown."""
 
 
 def misfit(of: d.AnyType, value: object) -> str:
@@ -33,7 +36,7 @@ def misfit(of: d.AnyType, value: object) -> str:
             return _misfit_of_array(of.of, of.sizes, value)
         case d.Sequence():
             if not isinstance(value, list):
-                return f"{value!r} is no list"
+                return f"{told(value, _LONGEST)} is no list"
             if 0 <= of.size < len(value):
                 return f"{len(value)} elements are more than {of.size}"
             return _misfit_of_elements(of.of, value)
@@ -58,7 +61,7 @@ def _misfit_of_scalar(of: d.AnyType, value: object) -> str:
             return _misfit_of_string(of, value)
         case _:
             fits = False
-    return "" if fits else f"{_short(value)} is no {kind_name(of)}"
+    return "" if fits else f"{told(value, _LONGEST)} is no {kind_name(of)}"
 
 
 def _is_integer(value: object, low: int, high: int) -> bool:
@@ -79,7 +82,7 @@ def is_nan(of: d.Float, value: str) -> bool:
 
 def _misfit_of_string(of: d.String, value: object) -> str:
     if not isinstance(value, str):
-        return f"{_short(value)} is no string"
+        return f"{told(value, _LONGEST)} is no string"
     if 0 <= of.size < len(value):
         return f"{len(value)} characters are more than {of.size}"
     wrong = [c for c in value if not 0 < ord(c) <= _LARGEST[of.base] or ord(c) in _SURROGATES]
@@ -88,7 +91,7 @@ def _misfit_of_string(of: d.String, value: object) -> str:
 
 def _misfit_of_structure(of: d.Structure, value: object) -> str:
     if not isinstance(value, list) or len(value) != len(of.fields):
-        return f"{_short(value)} has not the {len(of.fields)} fields of {of.name}"
+        return f"{told(value, _LONGEST)} has not the {len(of.fields)} fields of {of.name}"
     for (name, field), one in zip(of.fields.items(), value, strict=True):
         problem = misfit(field, one)
         if problem:
@@ -98,17 +101,17 @@ def _misfit_of_structure(of: d.Structure, value: object) -> str:
 
 def _misfit_of_union(of: d.Union, value: object) -> str:
     if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], str):
-        return f"{_short(value)} is not [enumerator, value]"
+        return f"{told(value, _LONGEST)} is not [enumerator, value]"
     case = case_of(of, value[0])
     if case is None:
-        return f"{of.name} has no case for {_short(value[0])}"
+        return f"{of.name} has no case for {told(value[0], _LONGEST)}"
     problem = misfit(case.of, value[1])
     return f"{case.name}: {problem}" if problem else ""
 
 
 def _misfit_of_array(of: d.AnyType, sizes: tuple[int, ...], value: object) -> str:
     if not isinstance(value, list) or len(value) != sizes[0]:
-        return f"{_short(value)} has not {sizes[0]} elements"
+        return f"{told(value, _LONGEST)} has not {sizes[0]} elements"
     if len(sizes) == 1:
         return _misfit_of_elements(of, value)
     problems = (
@@ -175,6 +178,19 @@ def spell(value: d.Datum) -> str:
     return msgspec.json.encode(value).decode()
 
 
+def told(value: object, longest: int = 0) -> str:
+    """A value for people, spelled as in scenarios and reports; of one with more than ``longest`` characters the beginning and the
+    length, unless ``longest`` is 0.
+    """
+    if value is None:
+        return "nothing"
+    text = json.dumps(value, ensure_ascii=False, default=str)
+    text = text if text.isprintable() else json.dumps(value, default=str)
+    if not 0 < longest < len(text):
+        return text
+    return f"{text[: longest - 20]}… ({len(value if isinstance(value, str) else text)} characters)"
+
+
 def read_spelled(text: str | None) -> d.Datum | None:
     """The value that ``text`` spells; None if it is any other text."""
     try:
@@ -192,8 +208,3 @@ def kind_name(of: d.AnyType) -> str:
             return f"{of.base} string"
         case _:
             return type(of).__name__.lower()
-
-
-def _short(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:40]}… ({len(text)} characters)"

@@ -1,6 +1,6 @@
 """Business calls that never came back: which call a framework has lost, and which requirement that breaks.
 
-A call counts if all bodies were operational when it was made, if it is the framework's turn (no body is still inside on
+A call counts if all bodies were operational when it was made and the body called was not removed before, if it is the framework's turn (no body is still inside on
 account of it), and if nothing that may end it was called before patience had run out once.
 """
 
@@ -44,6 +44,40 @@ class _OpenCall:
 
 
 @dataclass
+class _Targets:
+    """Which bodies references and connections lead to: by the steps that gave them out, as a framework's proxies do not show it.
+
+    ``bodies``: the body by the variable of its id.
+    ``references``: the body by the variable of the reference.
+    ``connections``: client, port and the body connected, by the variable of the connection; none once it is undone.
+    ``removed``: bodies that were removed. What becomes of a call of theirs is open.
+    """
+
+    bodies: dict[str, tuple[str, int]] = field(default_factory=dict)
+    references: dict[str, tuple[str, int]] = field(default_factory=dict)
+    connections: dict[str, tuple[tuple[str, int], str, tuple[str, int] | None]] = field(default_factory=dict)
+    removed: set[tuple[str, int]] = field(default_factory=set)
+
+    def note(self, step: s.Step) -> None:
+        """``step`` has returned."""
+        if isinstance(step, s.GetPortElement):
+            self.references.pop(step.bind, None)
+            if step.id in self.bodies:
+                self.references[step.bind] = self.bodies[step.id]
+        elif isinstance(step, s.Connect) and step.id in self.bodies and step.to in self.references:
+            self.connections[step.bind] = self.bodies[step.id], step.port, self.references[step.to]
+        elif isinstance(step, s.Disconnect) and step.connection in self.connections:
+            self.connections[step.connection] = (*self.connections[step.connection][:2], None)
+
+    def are_there(self, call: s.Invoke | t.Request) -> bool:
+        """Does ``call`` lead to nothing that is removed, and not through a port that was connected and no longer is?"""
+        if isinstance(call, s.Invoke):
+            return self.references.get(call.ref) not in self.removed
+        ever = {to for client, port, to in self.connections.values() if (client, port) == (call.body, call.port)}
+        return self.removed.isdisjoint(ever) and ever != {None}
+
+
+@dataclass
 class _Reading:
     """A trace as far as it has been read: what each thread is doing, and which bodies are operational."""
 
@@ -51,6 +85,7 @@ class _Reading:
     threads: dict[int, list[t.Event]] = field(default_factory=dict)
     calls: dict[int, _OpenCall] = field(default_factory=dict)
     ready: dict[tuple[str, int], bool] = field(default_factory=dict)
+    targets: _Targets = field(default_factory=_Targets)
 
     def take(self, event: t.Event) -> None:
         """Read the next event."""
@@ -61,7 +96,7 @@ class _Reading:
                 self._begin(event)
             case t.Request():
                 stack.append(event)
-                self.calls[event.n] = _OpenCall(event, self._all_ready())
+                self.calls[event.n] = _OpenCall(event, self._all_ready() and self.targets.are_there(event))
             case t.Enter():
                 stack.append(event)
                 self._note_phase(event)
@@ -70,10 +105,13 @@ class _Reading:
                     self.calls.pop(stack.pop().n, None)
                 if isinstance(event, t.Exit) and event.hook == "on_startup":
                     self.ready[event.body] = not event.raised
+                if isinstance(event, t.Return):
+                    self.targets.note(self.scenario.steps[event.step])
             case t.Skip() if stack and isinstance(stack[-1], t.Call) and stack[-1].step == event.step:
                 self.calls.pop(stack.pop().n, None)
             case t.Create():
                 self.ready[event.body] = False
+                self._note_body(event, stack)
             case t.Timeout():
                 self._run_out_of_patience()
             case _:
@@ -82,7 +120,7 @@ class _Reading:
     def _begin(self, event: t.Call) -> None:
         step = self.scenario.steps[event.step]
         if isinstance(step, s.Invoke):
-            self.calls[event.n] = _OpenCall(event, self._all_ready())
+            self.calls[event.n] = _OpenCall(event, self._all_ready() and self.targets.are_there(step))
         elif isinstance(step, _ENDING):
             for call in self.calls.values():
                 call.ended = True
@@ -92,6 +130,12 @@ class _Reading:
             self.ready[event.body] = False
         elif event.hook == "on_remove":
             self.ready.pop(event.body, None)
+            self.targets.removed.add(event.body)
+
+    def _note_body(self, event: t.Create, stack: list[t.Event]) -> None:
+        step = self.scenario.steps[stack[-1].step] if stack and isinstance(stack[-1], t.Call) else None
+        if isinstance(step, s.AddComponent):
+            self.targets.bodies[step.bind or step.component] = event.body
 
     def _run_out_of_patience(self) -> None:
         if not self.has_bodies_inside():

@@ -11,8 +11,8 @@ from ucm_cts.reference_models.findings import Finding
 
 _PROGRAM_WORDS = re.compile(r"\bopaque\b|\bUNDECLARED\b|went the way|\bNone\b|\bTrue\b|\bFalse\b|<[a-z_.]+object")
 
-_NAMING = ("bind", "id", "connection", "link", "container", "ref")
-"""The fields of steps with names of instances, connections, containers and references."""
+_NAMING = ("bind", "component", "id", "connection", "link", "container", "ref")
+"""The fields of steps with names of instances, implementations (one may be nobody's), connections, containers and references."""
 
 
 def wrongly_said(scenario: Scenario, finding: Finding) -> str:
@@ -23,7 +23,7 @@ def wrongly_said(scenario: Scenario, finding: Finding) -> str:
     if finding.expected == finding.observed:
         return "observed what was expected"
     if finding.rule not in HOST_CHECKS and not _names_of(scenario).search(text):  # those are about a process
-        return "names no instance, port, connection, container or reference"
+        return "names no instance, implementation, port, connection, container or reference"
     if words := _PROGRAM_WORDS.search(text):
         return f"says '{words.group()}'"
     return ""

@@ -135,13 +135,14 @@ def _respell(element: etree._Element, dialect: Dialect) -> None:
 
 
 def _take_end_out(delegation: etree._Element) -> None:
-    """Let ``delegation`` name its one inner port in attributes; several ends, or none, can only be written as they are."""
+    """Let ``delegation`` name its one inner port in attributes. Several ends, none, and an end of which more would be lost than
+    its name, can only be written as they are.
+    """
     ends = delegation.findall("ConnectionEnd")
-    if len(ends) != 1:
+    if len(ends) != 1 or len(ends[0]) or set(ends[0].attrib) != {"name", "part", "port"} or not all(ends[0].values()):
         return
     for attribute, internal in (("part", "internalPart"), ("port", "internalPort")):
-        if attribute in ends[0].attrib:
-            delegation.set(internal, str(ends[0].get(attribute)))
+        delegation.set(internal, str(ends[0].get(attribute)))
     delegation.remove(ends[0])
 
 

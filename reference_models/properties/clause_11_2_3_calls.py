@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_values import told
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
@@ -58,9 +59,9 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         expected = f"the reference that get_port_element gave for {port} runs {member.lane}'s {port}"
         yield _violate(check, _OWN_ELEMENT, "another port", expected, observed, call.n, end.n, member)
         return
-    observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
+    observed = f"the body received {told(enter.value)}, returned {told(result)}, the caller got {told(end.value)}"
     if exit_ is None:
-        observed = f"the caller got {end.value} before the body had returned"
+        observed = f"the caller got {told(end.value)} before the body had returned"
     if len(own) > 1:
         observed = f"the body was entered {len(own)} times"
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
@@ -97,8 +98,7 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
         observed = f"it reached {where}"
     elif not came_back:
         left = reached[0][1]
-        got = "nothing" if reply.value is None else reply.value
-        gave = left.value if left is not None and left.value is not None else "nothing"
+        got, gave = told(reply.value), told(left.value if left is not None else None)
         observed = f"the body returned {gave}, the caller got {got}"
         if left is None:
             observed = f"the caller got {got} before the body had returned"

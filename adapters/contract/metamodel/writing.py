@@ -64,10 +64,14 @@ def _written(outermost: Element, dialect: Dialect) -> Iterator[str]:
 
 
 def _without_end(delegation: PortDelegation) -> PortDelegation:
-    """``delegation`` with its one inner port in attributes; as it is if it does not have just one."""
+    """``delegation`` with its one inner port in attributes; as it is if it does not have just one, or of that one more would be
+    lost than its name.
+    """
     if len(delegation.ends) != 1:
         return delegation
     (end,) = delegation.ends
+    if end.comments or not (end.name and end.part and end.port):
+        return delegation
     return msgspec.structs.replace(delegation, internal_part=end.part, internal_port=end.port, ends=())
 
 

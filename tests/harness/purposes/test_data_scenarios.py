@@ -71,7 +71,7 @@ def failures(name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     ("name", "words", "smallest"),
     [
         ("cuts_integers_to_32_bits", "data/integers", "LONGLONG 2147483648"),
-        ("leaves_room_for_nul", "data/strings", f"CHAR8 string '{'a' * 16}'"),
+        ("leaves_room_for_nul", "data/strings", f'CHAR8 string "{"a" * 16}"'),
         ("turns_sequences_round", "data/sequences", "sequence [0, 1]"),
     ],
 )

@@ -89,3 +89,19 @@ def test_strings_and_delegations_are_written_in_either_printed_way() -> None:
 
 def test_text_that_is_no_xml_is_unchanged() -> None:
     assert Renaming(5).apply("<a><b></a>") == "<a><b></a>"
+
+
+@pytest.mark.parametrize(
+    "end",
+    [
+        '<ConnectionEnd part="a" port="q"/>',
+        '<ConnectionEnd name="" part="a" port="q"/>',
+        '<ConnectionEnd name="e" part="a"/>',
+        '<ConnectionEnd name="e" part="a" port="q" role="r"/>',
+        '<ConnectionEnd name="e" part="a" port="q"><SimpleComment>c</SimpleComment></ConnectionEnd>',
+        '<ConnectionEnd name="e" part="a" port="q"><Port name="p"/></ConnectionEnd>',
+    ],
+)
+def test_an_end_is_left_as_it_is_if_more_than_its_name_would_be_lost(end: str) -> None:
+    text = f'<PortDelegation port="p">{end}</PortDelegation>'
+    assert Renaming(None, Dialect(delegation_attributes=True)).apply(text) == text
