@@ -15,6 +15,9 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 _DEEPEST = 16
 """The longest chain of calls: stacks end somewhere."""
 
+_MOST_ATTRIBUTES = 8
+"""Those of the component type in the probe models with most of them (suite/models/probes)."""
+
 _SERVER = Declaration(("in.api",))
 _CLIENT = Declaration(("in.api",), ("out.api",), connectable=True, plan={"exchange": (s.CallPort("out.api", 7),)})
 
@@ -56,7 +59,8 @@ def boundary_purposes() -> list[TestPurpose]:
     ]
     sizes = tuple((f"boundary/attribute of {size} characters", _sized(size)) for size in boundaries.sizes)
     sizes += tuple((f"boundary/attribute {text!r}", _with_value(text)) for text in boundaries.texts)
-    sizes += tuple((f"boundary/{count} attributes", _with_attributes(count)) for count in boundaries.counts)
+    few = [count for count in boundaries.counts if count <= _MOST_ATTRIBUTES]
+    sizes += tuple((f"boundary/{count} attributes", _with_attributes(count)) for count in few)
     text = "There are none, one and many attributes; the value of one has characters without number: none, one, and so many that buffers end."
     return [*purposes, TestPurpose("boundary/attribute values", "11.2.1.2", text, ("R-11.2.1.2-05",), sizes)]
 

@@ -47,7 +47,8 @@ const std::vector<Type>& types() {
     static const std::vector<Type> all = {
         type<Hermit>(), type<Source>(),   type<Sink>(),          type<Relay>(),   type<Junction>(),
         type<Twin>(),   type<Labelled>(), type<LabelledRelay>(), type<Fork>(),    type<LabelledTwin>(),
-        type<Merger>(), type<Exchanger>(), type<Triplet>(),      type<Funnel>(),  type<Hub>()};
+        type<Merger>(), type<Exchanger>(), type<Triplet>(),      type<Funnel>(),  type<Hub>(),
+        type<FanOfThree>(), type<FanOfEight>(), type<Rack>(), type<Inscribed>()};
     return all;
 }
 

@@ -84,6 +84,39 @@ class LabelledProbe : public TypedProbe<Implemented> {
     ::probe_api::label_t level_;
 };
 
+/// A probe with eight attributes.
+template <class Implemented>
+class InscribedProbe : public TypedProbe<Implemented> {
+  public:
+    using TypedProbe<Implemented>::TypedProbe;
+
+    ::probe_api::label_t a0() override { return values_[0]; }
+    ::probe_api::label_t a1() override { return values_[1]; }
+    ::probe_api::label_t a2() override { return values_[2]; }
+    ::probe_api::label_t a3() override { return values_[3]; }
+    ::probe_api::label_t a4() override { return values_[4]; }
+    ::probe_api::label_t a5() override { return values_[5]; }
+    ::probe_api::label_t a6() override { return values_[6]; }
+    ::probe_api::label_t a7() override { return values_[7]; }
+
+    void a0(const ::probe_api::label_t& value) override { set(0, value); }
+    void a1(const ::probe_api::label_t& value) override { set(1, value); }
+    void a2(const ::probe_api::label_t& value) override { set(2, value); }
+    void a3(const ::probe_api::label_t& value) override { set(3, value); }
+    void a4(const ::probe_api::label_t& value) override { set(4, value); }
+    void a5(const ::probe_api::label_t& value) override { set(5, value); }
+    void a6(const ::probe_api::label_t& value) override { set(6, value); }
+    void a7(const ::probe_api::label_t& value) override { set(7, value); }
+
+  private:
+    void set(std::size_t number, const ::probe_api::label_t& value) {
+        values_[number] = value;
+        this->core.configure(number, value);
+    }
+
+    ::probe_api::label_t values_[8];
+};
+
 /// A probe that requires no port element.
 template <class Probe>
 class RequiresNothing : public Probe {
@@ -111,6 +144,35 @@ class RequiresTwo : public Probe {
     }
 };
 
+/// A probe that requires `out0`, `out1`, `out2`.
+template <class Probe>
+class RequiresThree : public Probe {
+  public:
+    using Probe::Probe;
+    void on_startup(const ::probes::out0_api_Connection& out0_api,
+                    const ::probes::out1_api_Connection& out1_api,
+                    const ::probes::out2_api_Connection& out2_api) override {
+        this->core.start({out0_api, out1_api, out2_api});
+    }
+};
+
+/// A probe that requires `out0` to `out7`.
+template <class Probe>
+class RequiresEight : public Probe {
+  public:
+    using Probe::Probe;
+    void on_startup(const ::probes::out0_api_Connection& out0_api,
+                    const ::probes::out1_api_Connection& out1_api,
+                    const ::probes::out2_api_Connection& out2_api,
+                    const ::probes::out3_api_Connection& out3_api,
+                    const ::probes::out4_api_Connection& out4_api,
+                    const ::probes::out5_api_Connection& out5_api,
+                    const ::probes::out6_api_Connection& out6_api,
+                    const ::probes::out7_api_Connection& out7_api) override {
+        this->core.start({out0_api, out1_api, out2_api, out3_api, out4_api, out5_api, out6_api, out7_api});
+    }
+};
+
 /// A probe that provides `in`.
 template <class Probe>
 class ProvidesOne : public Probe {
@@ -135,6 +197,21 @@ class ProvidesThree : public ProvidesTwo<Probe> {
     ExchangePointer get_extra_api() override { return this->core.element(2); }
 };
 
+/// A probe that provides `in0` to `in7`.
+template <class Probe>
+class ProvidesEight : public Probe {
+  public:
+    using Probe::Probe;
+    ExchangePointer get_in0_api() override { return this->core.element(0); }
+    ExchangePointer get_in1_api() override { return this->core.element(1); }
+    ExchangePointer get_in2_api() override { return this->core.element(2); }
+    ExchangePointer get_in3_api() override { return this->core.element(3); }
+    ExchangePointer get_in4_api() override { return this->core.element(4); }
+    ExchangePointer get_in5_api() override { return this->core.element(5); }
+    ExchangePointer get_in6_api() override { return this->core.element(6); }
+    ExchangePointer get_in7_api() override { return this->core.element(7); }
+};
+
 typedef RequiresNothing<TypedProbe< ::probes::Abstract_hermit_body>> Hermit;
 typedef RequiresOne<TypedProbe< ::probes::Abstract_source_body>> Source;
 typedef ProvidesOne<RequiresNothing<TypedProbe< ::probes::Abstract_sink_body>>> Sink;
@@ -150,6 +227,10 @@ typedef ProvidesTwo<RequiresTwo<LabelledProbe< ::probes::Abstract_exchanger_body
 typedef ProvidesThree<RequiresNothing<LabelledProbe< ::probes::Abstract_triplet_body>>> Triplet;
 typedef ProvidesThree<RequiresOne<LabelledProbe< ::probes::Abstract_funnel_body>>> Funnel;
 typedef ProvidesThree<RequiresTwo<LabelledProbe< ::probes::Abstract_hub_body>>> Hub;
+typedef ProvidesOne<RequiresThree<TypedProbe< ::probes::Abstract_fan_of_three_body>>> FanOfThree;
+typedef ProvidesOne<RequiresEight<TypedProbe< ::probes::Abstract_fan_of_eight_body>>> FanOfEight;
+typedef ProvidesEight<RequiresNothing<TypedProbe< ::probes::Abstract_rack_body>>> Rack;
+typedef RequiresNothing<InscribedProbe< ::probes::Abstract_inscribed_body>> Inscribed;
 
 /// A probe that is called at each connection (11.2.1.3).
 template <class Probe>
