@@ -85,7 +85,7 @@ def _size(value: Datum) -> int:
     return len(value) if isinstance(value, str) else 1
 
 
-@replaces("_emit", "R-10.1.2-10", clauses=("10.1.2",), also=("R-10.1.6.1-20",))
+@replaces("_emit", "R-10.1.2-10", clauses=("10.1.1", "10.1.2"), also=("R-10.1.6.1-20",))
 def loses_messages_of_64k(self: Link, method: str, arguments: Sequence[Datum]) -> str:
     """Messages of more than 65,535 characters or elements are lost, and push returns ok."""
     return OK if sum(map(_size, arguments)) > 65535 and not self.broken else Link._emit(self, method, arguments)
