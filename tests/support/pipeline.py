@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Mapping
+import resource
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from typing import NamedTuple
+
+import psutil
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
@@ -59,7 +63,8 @@ class Product:
         for line, (name, scenario) in _prepared(stated).items():
             if is_wrong and name.startswith(FAMILIES):
                 continue
-            answer = engine.answer(line)
+            with _bounded() if is_wrong else nullcontext():
+                answer = engine.answer(line)
             key = stated, line, _TIME.sub(b"", answer)
             if key not in _known:
                 _known[key] = _judged(stated, name, scenario, answer, is_wrong)
@@ -127,11 +132,28 @@ def _trace(name: str, answer: bytes) -> Trace:
     return traced.events
 
 
+_ROOM = 1 << 30
+"""Bytes that one scenario of a wrong subject may take in this process."""
+
+
+@contextmanager
+def _bounded() -> Iterator[None]:
+    """As a host bounds the memory of a framework, whose calls may grow without end."""
+    before, most = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (psutil.Process().memory_info().vms + _ROOM, most))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (before, most))
+
+
 def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes, is_wrong: bool) -> Judged:
     traced = from_host_decoder().decode(answer)
+    if is_wrong and not isinstance(traced, Traced):  # an incident, in a run
+        return Judged((), {}, frozenset())
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, bool(traced.stuck))
-    if problem is not None and is_wrong:  # an incident, in a run
+    if problem is not None and is_wrong:  # likewise
         return Judged((), {}, frozenset())
     assert problem is None, (name, problem)
     verdicts = _monitor_of(declared).judge(scenario, traced.events)
