@@ -83,6 +83,7 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         *scripted,
         *generated_purposes(load_life_cycle()),
         *purposes_of("start"),
+        *purposes_of("peers"),
         *unforeseen_purposes(),
         *provocation_purposes(),
         *duration_purposes(),

@@ -220,17 +220,22 @@ class Application:
         )
 
     def _without_container(self) -> tuple[Step, ...]:
-        """The sub-container has been removed, or its removal has failed: the rest of the runtime is used."""
+        """The sub-container has been removed, or its removal has failed: the rest of the runtime is used.
+
+        Only a further removal shows whether it is gone.
+        """
+        again = s.RemoveContainer(self.home)
         match self.cell.aftermath:
             case "the same again":
-                again = s.RemoveContainer(self.home)
                 return (again, again, *self._another(s.MANAGER), s.GetComponents())
             case "undo and redo":
-                return (s.CreateContainer(_SECOND), *self._another(_SECOND), s.RemoveContainer(_SECOND))
+                return (again, s.CreateContainer(_SECOND), *self._another(_SECOND), s.RemoveContainer(_SECOND))
             case "start and stop":
                 return (s.Start(), s.Stop(), s.GetComponents())
             case "destroy":
                 return (s.Destroy(),)
+            case "another one":
+                return (again, *self._another(s.MANAGER), s.GetComponents())
             case _:
                 return (*self._another(s.MANAGER), s.GetComponents())
 

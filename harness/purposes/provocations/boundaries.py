@@ -18,6 +18,9 @@ _DEEPEST = 16
 _MOST_ATTRIBUTES = 8
 """Those of the component type in the probe models with most of them (suite/models/probes)."""
 
+_MOST_PORTS = 8
+"""The most port elements of one component."""
+
 _SERVER = Declaration(("in.api",))
 _CLIENT = Declaration(("in.api",), ("out.api",), connectable=True, plan={"exchange": (s.CallPort("out.api", 7),)})
 
@@ -62,7 +65,18 @@ def boundary_purposes() -> list[TestPurpose]:
     few = [count for count in boundaries.counts if count <= _MOST_ATTRIBUTES]
     sizes += tuple((f"boundary/{count} attributes", _with_attributes(count)) for count in few)
     text = "There are none, one and many attributes; the value of one has characters without number: none, one, and so many that buffers end."
-    return [*purposes, TestPurpose("boundary/attribute values", "11.2.1.2", text, ("R-11.2.1.2-05",), sizes)]
+    ports = [count for count in boundaries.counts if 0 < count <= _MOST_PORTS]
+    return [
+        *purposes,
+        TestPurpose("boundary/attribute values", "11.2.1.2", text, ("R-11.2.1.2-05",), sizes),
+        TestPurpose(
+            "boundary/port elements",
+            "11.2.1.2",
+            "A component has one, few and many required port elements, and another one as many provided ones.",
+            ("R-11.2.1.2-09", "R-11.2.2.1-07"),
+            tuple((f"boundary/{count} port elements", _with_ports(count)) for count in ports),
+        ),
+    ]
 
 
 def _scenario(steps: Iterator[Step]) -> Scenario:
@@ -213,6 +227,30 @@ def _with_attributes(count: int) -> Scenario:
     attributes = {f"a{number}": f"value {number}" for number in range(count)}
     steps = (s.AddComponent("server"), s.AddComponent("server", bind="another one"), s.GetComponents())
     return Scenario({"server": Declaration(attributes=attributes)}, steps)
+
+
+def _with_ports(count: int) -> Scenario:
+    """Each required port element of one is connected to a provided one of the other, and all of them are used."""
+    provided, required = ([f"{kind}{number}.api" for number in range(count)] for kind in ("in", "out"))
+    calls = tuple(s.CallPort(port, number) for number, port in enumerate(required))
+    components = {
+        "server": Declaration(tuple(provided)),
+        "client": Declaration(("in.api",), tuple(required), connectable=True, plan={"exchange": calls}),
+    }
+    steps: tuple[Step, ...] = (
+        *map(s.AddComponent, components),
+        s.GetPortElement("client", "in.api", "to client"),
+        *(s.GetPortElement("server", port, f"to {port}") for port in provided),
+        *(
+            s.Connect("client", port, f"to {goal}", f"link of {port}")
+            for port, goal in zip(required, provided, strict=True)
+        ),
+        s.Start(),
+        s.Invoke("to client", 1),
+        *(s.Invoke(f"to {port}", number) for number, port in enumerate(provided)),
+        s.Stop(),
+    )
+    return Scenario(components, steps)
 
 
 _COUNTED: dict[str, tuple[Callable[[int], Iterator[Step]], tuple[str, ...]]] = {

@@ -42,6 +42,10 @@ def core_boundary_purposes() -> list[TestPurpose]:
         text = f"There are {', '.join(map(str, some))} {what}."
         scenarios = tuple((f"boundary/{count} {what}", make(count)) for count in some)
         purposes.append(TestPurpose(name, clause, text, requirements, scenarios))
+    text = f"A component that runs again and again is started {', '.join(map(str, few))} times; each phase has a run of its own."
+    name = "boundary/phases with runs"
+    scenarios = tuple((f"boundary/{count} phases with runs", _running_phases(count, again=True)) for count in few)
+    purposes.append(TestPurpose(name, "10.1.3.2", text, ("R-10.1.3.2-01",), scenarios, under=("run-trigger=repeated",)))
     return purposes
 
 
@@ -58,9 +62,13 @@ def _runners(count: int) -> Scenario:
     return Scenario(components, tuple(steps))
 
 
-def _running_phases(count: int) -> Scenario:
-    phases = (s.Start(), s.ReachGate("ran"), s.Stop())
-    steps = (s.AddComponent("runner"), s.OpenGate("ran"), *(step for _ in range(count) for step in phases))
+def _running_phases(count: int, again: bool = False) -> Scenario:
+    """Each phase ends when there have been as many runs; if there are more of them in one phase, ``again`` waits for another one."""
+    phases = (
+        (s.Start(), s.ReachGate("ran", more=1) if again else s.ReachGate("ran", total=number), s.Stop())
+        for number in range(1, count + 1)
+    )
+    steps = (s.AddComponent("runner"), s.OpenGate("ran"), *(step for phase in phases for step in phase))
     return Scenario({"runner": _RUNNER}, steps)
 
 

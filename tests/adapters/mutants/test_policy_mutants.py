@@ -28,6 +28,8 @@ SCRIPTED = {
     "waits-for-one-who-fails",
     "entered-while-it-waits-for-another",
     "run-that-fails",
+    "run-beside-one-that-failed",
+    "boundary/phases with runs",
     "executes-by-itself-while-nobody-calls",
     "self-executing/alone",
     "two execution policies",

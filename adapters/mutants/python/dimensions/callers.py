@@ -226,7 +226,13 @@ class _Mixing(PortElementObject):
 # self-execution beside others
 
 
-@replaces("_keep_running", "R-10.1.3.2-01", clauses=POLICIES, readings={"run-trigger": "repeated"})
+@replaces(
+    "_keep_running",
+    "R-10.1.3.2-01",
+    clauses=POLICIES,
+    readings={"run-trigger": "repeated"},
+    also=("R-10.1.3.2-03",),
+)
 def ends_running_after_a_failure(self: Base, member: Member, trigger: Trigger) -> None:
     """Once a run of one component raised, the other components of the runtime are not run any more."""
 
@@ -246,11 +252,18 @@ def ends_running_after_a_failure(self: Base, member: Member, trigger: Trigger) -
 def locks_ports_after_a_failing_run(self: Base, member: Member, trigger: Trigger) -> None:
     """After a run that raised the ports of the component serve nobody."""
     body_run = self._execution_api(member).run
+
+    def run_and_keep() -> None:
+        try:
+            trigger.run(body_run)
+        except Exception:
+            member.execution.lock.acquire()  # once more than it is released, before anybody who waits can have it
+            raise
+
     while not trigger.ended.wait(self.period):
         try:
-            self._execute(member, None, lambda: trigger.run(body_run))
+            self._execute(member, None, run_and_keep)
         except Exception:  # noqa: BLE001 - whatever the body raises
-            member.execution.lock.acquire()
             trigger.ended.wait()
             return
 

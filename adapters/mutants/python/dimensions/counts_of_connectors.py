@@ -30,7 +30,13 @@ def runs_one_component_of_a_container(self: Base, member: Member) -> None:
         Base._begin_execution(self, member)
 
 
-@replaces("_begin_execution", "R-10.1.3.2-01", clauses=POLICIES, also=("R-10.1.3.2-03",))
+@replaces(
+    "_begin_execution",
+    "R-10.1.3.2-01",
+    clauses=POLICIES,
+    readings={"run-trigger": "repeated"},
+    also=("R-10.1.3.2-03",),
+)
 def runs_two_phases(self: Base, member: Member) -> None:
     """A self-executing component runs in the first two phases only."""
     member.__dict__["phases"] = member.__dict__.get("phases", 0) + 1

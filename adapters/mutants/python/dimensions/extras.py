@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from types import MappingProxyType
 
 from ucm_cts.adapters.contract.data_types import Datum
@@ -175,11 +175,12 @@ def hands_over_a_container(_self: Base, given: list[PortConnection], member: Mem
     return [*given, PortConnection("container", ())] if isinstance(member.body, FragmentObject) else given
 
 
-@replaces("_dependencies_of", "R-11.2.1.2-09", also=("R-11.2.3-10", "R-12.10-25"))
+@replaces("_dependencies_of", "R-11.2.1.2-09", also=("R-11.2.3-10", "R-12.10-25", "R-11.2.1.2-03", "R-11.1.3-01"))
 def hands_over_dependencies_of_neighbours(self: Base, member: Member) -> list[PortConnection]:
-    """Each body is given its neighbours' connections, too."""
+    """Each body is given its neighbours' connections, too, if whom they lead to calls nobody itself."""
     given = Base._dependencies_of(self, member)
-    others = [c for m in self.members.values() if m is not member for c in Base._connections_from(self, m)]
+    silent = [m for m in self.members.values() if not Base._connections_from(self, m)]  # else calls would go in circles
+    others = [c for m in silent for c in Base._connections_to(self, m) if c.client is not member]
     return [*given, *(PortConnection(c.port, (c.target,)) for c in others)]
 
 
@@ -244,15 +245,23 @@ class calls_the_dead_at_stop(Base):
 # calls, messages and records
 
 
-@replaces("_begin_operation", "R-11.2.3-17", also=("R-11.2.1.1-02", "R-11.2.3-02", "R-11.1.3-01"))
-def tries_every_port_after_the_stop(self: Base) -> None:
-    """After each further start all provided port elements are called once, to see whether they work."""
-    Base._begin_operation(self)
-    for member in self.started:
-        for port in member.implementation.provides:
-            element = member.body.get_portElement(port)
-            with suppress(Exception):
-                element.exchange(0)  # type: ignore[union-attr]
+@breaks("R-11.2.3-17", also=("R-11.2.1.1-02", "R-11.2.3-02", "R-11.1.3-01"))
+class tries_every_port_after_the_stop(Base):
+    """When the next operation begins after a stop, each provided port element is called once, to see whether it still works."""
+
+    def stop(self) -> None:
+        stopped = list(self.started)
+        super().stop()
+        self.__dict__["stopped"] = stopped
+
+    @contextmanager
+    def _operation(self) -> Iterator[None]:
+        with super()._operation():
+            for member in self.__dict__.pop("stopped", ()):
+                for port in member.implementation.provides:
+                    with suppress(Exception):
+                        member.body.get_portElement(port).exchange(0)
+            yield
 
 
 class _Greets(Link):
