@@ -18,8 +18,8 @@ _DEEPEST = 16
 _MOST_ATTRIBUTES = 8
 """Those of the component type in the probe models with most of them (suite/models/probes)."""
 
-_MOST_PORTS = 8
-"""The most port elements of one component."""
+_PORTS = range(3, 9)
+"""Numbers of port elements of one component: those of the probe models with more than the usual two."""
 
 _SERVER = Declaration(("in.api",))
 _CLIENT = Declaration(("in.api",), ("out.api",), connectable=True, plan={"exchange": (s.CallPort("out.api", 7),)})
@@ -65,14 +65,14 @@ def boundary_purposes() -> list[TestPurpose]:
     few = [count for count in boundaries.counts if count <= _MOST_ATTRIBUTES]
     sizes += tuple((f"boundary/{count} attributes", _with_attributes(count)) for count in few)
     text = "There are none, one and many attributes; the value of one has characters without number: none, one, and so many that buffers end."
-    ports = [count for count in boundaries.counts if 0 < count <= _MOST_PORTS]
+    ports = [count for count in boundaries.counts if count in _PORTS]
     return [
         *purposes,
         TestPurpose("boundary/attribute values", "11.2.1.2", text, ("R-11.2.1.2-05",), sizes),
         TestPurpose(
             "boundary/port elements",
             "11.2.1.2",
-            "A component has one, few and many required port elements, and another one as many provided ones.",
+            "A component has more required port elements than two, and another one as many provided ones.",
             ("R-11.2.1.2-09", "R-11.2.2.1-07"),
             tuple((f"boundary/{count} port elements", _with_ports(count)) for count in ports),
         ),
