@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterator, KeysView, Mapping
 
 import msgspec
 import pytest
@@ -90,7 +90,9 @@ def _compare_generated_files(consulted: set[str]) -> None:
             _compare_with_models(derived.derive(reference()), Recording(consulted, declared), declared.keys())
 
 
-def _compare_with_models(program: Program, readings: Recording, wanted: Set[str] = frozenset()) -> None:
+def _compare_with_models(
+    program: Program, readings: Recording, wanted: KeysView[str] | frozenset[str] = frozenset()
+) -> None:
     """With all of the models, or until all options that are ``wanted`` have been consulted."""
     for name, text in mapping_models().items():
         if name.startswith(OPEN):
