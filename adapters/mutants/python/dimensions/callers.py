@@ -268,6 +268,19 @@ def locks_ports_after_a_failing_run(self: Base, member: Member, trigger: Trigger
             return
 
 
+@replaces("_exclusion", "R-10.1.3.2-13", clauses=POLICIES, also=_CALLS)
+@contextmanager
+def waits_a_fifth_of_a_second(_self: Base, member: Member, _port: str | None) -> Iterator[None]:
+    """Who has waited for 200 ms is let into a protected component."""
+    lock = member.execution.lock
+    got = lock.acquire(timeout=0.2)
+    try:
+        yield
+    finally:
+        if got:
+            lock.release()
+
+
 # calls between components
 
 
