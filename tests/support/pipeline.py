@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import re
 import resource
 from collections.abc import Iterable, Iterator, Mapping
@@ -43,7 +44,9 @@ class Judged(NamedTuple):
 Declared = tuple[tuple[str, str], ...]
 
 _known: dict[tuple[Declared, bytes, bytes], Judged] = {}
-"""Same trace, same findings: what many subjects do alike, but for the time it took, is judged once."""
+"""Same trace, same findings: what many subjects do alike, but for the time it took, is judged once. By declared readings, scenario
+and digest of the trace.
+"""
 
 
 class Product:
@@ -65,7 +68,7 @@ class Product:
                 continue
             with _bounded() if is_wrong else nullcontext():
                 answer = engine.answer(line)
-            key = stated, line, _TIME.sub(b"", answer)
+            key = stated, line, hashlib.blake2b(_TIME.sub(b"", answer), digest_size=16).digest()
             if key not in _known:
                 _known[key] = _judged(stated, name, scenario, answer, is_wrong)
             _tell(self.failing, name, _known[key].findings)
