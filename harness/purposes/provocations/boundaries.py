@@ -220,7 +220,8 @@ def _sized(size: int) -> Scenario:
 
 def _with_value(value: str) -> Scenario:
     server = Declaration(("in.api",), attributes={"label": value, "level": "low"})
-    return Scenario({"server": server}, (s.AddComponent("server"), s.GetComponents()))
+    below = s.CreateContainer("box"), s.AddComponent("server", "box", "server below")
+    return Scenario({"server": server}, (s.AddComponent("server"), *below, s.GetComponents()))
 
 
 def _with_attributes(count: int) -> Scenario:
