@@ -171,12 +171,6 @@ inline void read(const Value& value, nlohmann::json& into) {
     if (kind == Kind::null || kind == Kind::number_float || kind == Kind::object) {
         value.fail(std::string("Expected `bool | int | str | array`, got `") + name_of(kind) + "`");
     }
-    if (kind == Kind::array) {
-        value.for_each_element([](const Value& element) {
-            nlohmann::json ignored;
-            read(element, ignored);
-        });
-    }
     into = value.tree();
 }
 
