@@ -22,6 +22,9 @@ from ucm_cts.reference_models.monitor import Monitor
 
 pytestmark = pytest.mark.slow
 
+ENDS = "R-12.10-10"
+"""How stop ends."""
+
 SHORT = 0.2
 """Of the patience of scenarios. What a mutant never does is not waited for longer; a burst takes its time."""
 
@@ -78,6 +81,9 @@ def test_conformant_framework_is_not_failed(variant: Variant) -> None:
 
 @pytest.mark.parametrize("mutant", mutants_of(CORE).values(), ids=mutants_of(CORE).keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
+    if ENDS in mutant.requirements:  # it may hang, which only a host survives
+        check_killed(mutant)
+        return
     enough = frozenset(mutant.requirements)
     found = failing(mutant.adapter, mutant.clauses, SHORT, mutant.readings, enough)
     if spilled(mutant, found):  # a busy machine needs more patience
