@@ -154,28 +154,29 @@ class drops_messages_after_a_removal(Link):
             super()._post(taker, method, arguments)
 
 
-@breaks("R-10.1.6.1-05", clauses=("10.1.6",))
-class serves_twice_who_comes_back(Link):
-    """A receiver that is detached and attached again gets each message twice."""
-
+class _KnowsWhoLeft(Link):
     def remove(self, taker: Taker) -> None:
         super().remove(taker)
         self.__dict__.setdefault("left", []).append((taker.member, taker.port))
 
+    def _has_left(self, taker: Taker) -> bool:
+        return (taker.member, taker.port) in self.__dict__.get("left", [])
+
+
+@breaks("R-10.1.6.1-05", clauses=("10.1.6",))
+class serves_twice_who_comes_back(_KnowsWhoLeft):
+    """A receiver that is detached and attached again gets each message twice."""
+
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
         super()._post(taker, method, arguments)
-        if (taker.member, taker.port) in self.__dict__.get("left", []):
+        if self._has_left(taker):
             super()._post(taker, method, arguments)
 
 
 @breaks("R-10.1.6.1-04", clauses=("10.1.6",), also=("R-10.1.2-10", "R-10.1.6.1-03"))
-class serves_nobody_who_comes_back(Link):
+class serves_nobody_who_comes_back(_KnowsWhoLeft):
     """A receiver that is detached and attached again gets no messages, and push returns ok."""
 
-    def remove(self, taker: Taker) -> None:
-        super().remove(taker)
-        self.__dict__.setdefault("left", []).append((taker.member, taker.port))
-
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        if (taker.member, taker.port) not in self.__dict__.get("left", []):
+        if not self._has_left(taker):
             super()._post(taker, method, arguments)
