@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import msgspec
@@ -188,12 +188,7 @@ def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
 
 def _active_as_a_whole(declaration: Declaration) -> Declaration:
     """The active policy is attached to the component, once, instead of its ports (active-applicability)."""
-    policies = (s.Policy(s.ACTIVE) if p.definition == s.ACTIVE else p for p in declaration.policies)
-    seen: list[s.Policy] = []
-    for policy in policies:
-        if policy != s.Policy(s.ACTIVE) or policy not in seen:
-            seen.append(policy)
-    return msgspec.structs.replace(declaration, policies=tuple(seen))
+    return _with_each(declaration, s.ACTIVE, lambda _: s.Policy(s.ACTIVE))
 
 
 def _traced_as_declared(declaration: Declaration, statement: Statement) -> Declaration:
@@ -201,12 +196,14 @@ def _traced_as_declared(declaration: Declaration, statement: Statement) -> Decla
     changes: dict[str, object] = {} if statement.meets(_TRACED_PORTS) else {"port": None}
     if not statement.meets(_TRACE_PARAMETERS):
         changes["parameters"] = {}
-    policies = (
-        msgspec.structs.replace(policy, **changes) if policy.definition == s.PORT_TRACE else policy
-        for policy in declaration.policies
-    )
+    return _with_each(declaration, s.PORT_TRACE, lambda policy: msgspec.structs.replace(policy, **changes))
+
+
+def _with_each(declaration: Declaration, definition: str, change: Callable[[s.Policy], s.Policy]) -> Declaration:
+    """``declaration`` with a ``change`` of each policy of ``definition``; policies that become equal are kept once."""
     kept: list[s.Policy] = []
-    for policy in policies:
-        if policy.definition != s.PORT_TRACE or policy not in kept:
-            kept.append(policy)
+    for policy in declaration.policies:
+        changed = change(policy) if policy.definition == definition else policy
+        if policy.definition != definition or changed not in kept:
+            kept.append(changed)
     return msgspec.structs.replace(declaration, policies=tuple(kept))
