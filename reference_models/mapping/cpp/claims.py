@@ -27,8 +27,29 @@ class _OfOwner(Claim, frozen=True):
     owner: Class
 
 
-class _OfConnection(Claim, frozen=True):
+class _OfMethod(_OfOwner, frozen=True):
+    method: str
+    parameters: int
+
+
+class _Within(Claim, frozen=True):
     owner: str
+
+
+class _OfField(_Within, frozen=True):
+    field: str
+    sample: Sample
+
+
+class _OfFieldInForms(_OfField, frozen=True):
+    forms: tuple[StructForm, ...]
+
+
+class _OfEnumerator(_Within, frozen=True):
+    enumerator: str
+
+
+class _OfConnection(_Within, frozen=True):
     connection: str
 
 
@@ -81,44 +102,29 @@ class Regular(_OfName, frozen=True):
     """``name`` can be made without arguments, copied and assigned."""
 
 
-class Field(Claim, frozen=True):
+class Field(_OfFieldInForms, frozen=True):
     """A value written to ``field`` of ``owner`` is read from it."""
 
-    owner: str
-    field: str
-    sample: Sample
-    forms: tuple[StructForm, ...]
 
-
-class Copied(Claim, frozen=True):
+class Copied(_OfFieldInForms, frozen=True):
     """A value written to ``field`` of ``owner`` is there in copies and what it is assigned to, or in what is caught."""
 
-    owner: str
-    field: str
-    sample: Sample
-    forms: tuple[StructForm, ...]
     thrown: bool = False
 
 
-class Changed(Claim, frozen=True):
+class Changed(_OfField, frozen=True):
     """A value assigned to what the accessor ``field`` of ``owner`` returns is read from it."""
 
-    owner: str
-    field: str
-    sample: Sample
 
-
-class Constructed(Claim, frozen=True):
+class Constructed(_Within, frozen=True):
     """``owner`` is made from a value of each of its fields, in their order; ``fields`` has names and values."""
 
-    owner: str
     fields: tuple[tuple[str, Sample], ...]
 
 
-class Discriminator(Claim, frozen=True):
+class Discriminator(_Within, frozen=True):
     """Once ``case`` of the union ``owner`` was written, and read, one of ``functions`` returns one of ``values``."""
 
-    owner: str
     functions: tuple[str, ...]
     case: str
     sample: Sample
@@ -136,19 +142,15 @@ class Underlying(_OfTypes, frozen=True):
     """``name`` is stored as one of ``types``."""
 
 
-class EnumeratorOf(Claim, frozen=True):
+class EnumeratorOf(_OfEnumerator, frozen=True):
     """``enumerator`` is found in ``owner`` and gives a value of ``type``."""
 
-    owner: str
-    enumerator: str
     type: str
 
 
-class EnumeratorValue(Claim, frozen=True):
+class EnumeratorValue(_OfEnumerator, frozen=True):
     """``enumerator`` in ``owner`` has the index ``value``."""
 
-    owner: str
-    enumerator: str
     value: int
 
 
@@ -238,25 +240,21 @@ class Pure(_OfOwner, frozen=True):
     parameters: int
 
 
-class Arity(_OfOwner, frozen=True):
+class Arity(_OfMethod, frozen=True):
     """``method`` of ``owner`` has so many parameters, and is constant only if ``forms`` say so.
 
     Of several such functions one has one of ``forms``.
     """
 
-    method: str
-    parameters: int
     forms: Forms = Forms()
 
 
-class Passed(_OfOwner, frozen=True):
+class Passed(_OfMethod, frozen=True):
     """A parameter of ``method`` of ``owner``, counted from 1, is passed as one of ``types``; 0 is the result.
 
     ``parameters`` is how many the method has.
     """
 
-    method: str
-    parameters: int
     position: int
     types: tuple[str, ...]
     forms: Forms = Forms()
@@ -310,10 +308,9 @@ class ConnectionTo(_OfConnection, frozen=True):
     interface: str
 
 
-class Startup(Claim, frozen=True):
+class Startup(_Within, frozen=True):
     """``on_startup`` of ``owner`` takes from ``least`` to ``most`` constant references, all of ``connections`` among them."""
 
-    owner: str
     least: int
     most: int
     connections: tuple[str, ...]
@@ -327,16 +324,14 @@ class StartupTakes(_OfConnection, frozen=True):
     startup: Startup
 
 
-class ReturnsReference(Claim, frozen=True):
+class ReturnsReference(_Within, frozen=True):
     """``getter`` of ``owner`` returns a shared pointer; to ``interface``, or what derives from it, if that has a name."""
 
-    owner: str
     getter: str
     interface: str
 
 
-class Runs(Claim, frozen=True):
+class Runs(_Within, frozen=True):
     """A component that implements ``owner`` lives: it is started, called, calls what it is connected to, and is stopped."""
 
-    owner: str
     key: str
