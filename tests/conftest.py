@@ -1,8 +1,10 @@
 """Fixtures of several test modules, the lane of each test, and which worker runs it."""
 
 import signal
+from pathlib import Path
 
 import pytest
+from command_line import within
 from cpp_builds import builds
 
 __all__ = ["builds"]
@@ -12,6 +14,13 @@ NATIVE = {"builds", "java", "vendor"}
 # A shell that runs the tests in the background may have them ignore these; then no test could interrupt what it starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty working folder, with the adapters of tests/support/subjects.py within reach of hosts."""
+    within(tmp_path, monkeypatch)
+    return tmp_path
 
 
 @pytest.hookimpl(tryfirst=True)  # before -m selects

@@ -20,7 +20,7 @@ import click
 import jsonschema
 import msgspec
 import pytest
-from command_line import report_of, ucm_cts, within
+from command_line import report_of, ucm_cts
 from files import ROOT, guide_files
 
 import ucm_cts as package
@@ -41,6 +41,8 @@ from ucm_cts.harness.results.values import Verdict
 from ucm_cts.harness.selftest.kill_record import read_record
 from ucm_cts.harness.toolchains.commands.description import Command, ToolChain
 from ucm_cts.reference_models.monitor import Monitor
+
+pytestmark = pytest.mark.usefixtures("here")
 
 FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"
 PAGES = [ROOT / "README.md", FRAMEWORK / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -100,12 +102,6 @@ def shell(command: str, **environment: str) -> str:
     )  # fmt: skip
     assert done.returncode == 0, f"{command}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
     return done.stdout
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    within(tmp_path, monkeypatch)
-    return tmp_path
 
 
 @each_page

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import functools
 from collections import Counter
-from pathlib import Path
 
 import msgspec
 import pytest
-from command_line import within
 
 from ucm_cts.adapters.contract.trace import Settled
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
@@ -18,7 +16,7 @@ from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.monitor import Monitor
 
-pytestmark = pytest.mark.native
+pytestmark = [pytest.mark.native, pytest.mark.usefixtures("here")]
 
 EXCLUSION = {f"R-10.1.3.2-{number}" for number in ("06", "09", "10", "13", "16")}
 
@@ -40,11 +38,6 @@ def judged(adapter: str, times: int = 1) -> tuple[Counter[str], dict[str, set[st
                 for finding in verdicts.findings:
                     broken.setdefault(finding.requirement, set()).add(answer.name)
     return exercised, broken
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    within(tmp_path, monkeypatch)
 
 
 @pytest.mark.parametrize("adapter", ["reference-py", "reference-cpp"])

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Mapping
-from pathlib import Path
 
 import msgspec
 import pytest
-from command_line import within
 from cpp_builds import Builds
 
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -19,7 +17,7 @@ from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
-pytestmark = pytest.mark.native
+pytestmark = [pytest.mark.native, pytest.mark.usefixtures("here")]
 
 SHORT_PATIENCE = 500
 """Milliseconds. Scenarios that wait for what must not come take no longer."""
@@ -64,11 +62,6 @@ OPTIONS: dict[str, Mapping[str, str]] = {
     "inbox=4,clock=uptime,port-trace=call-and-return": {"port-trace-records": "call-and-return"},
 }
 """Options, and the readings in which they differ from ``DEFAULT``, or which it leaves open."""
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    within(tmp_path, monkeypatch)
 
 
 def scenarios(share: int, of: int) -> list[tuple[str, Scenario]]:

@@ -18,7 +18,7 @@ from command_line import Outcome, report_of, ucm_cts, within
 
 from ucm_cts.harness.catalogue.requirements import Requirement, load_interpretations, load_requirements
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("here")]
 
 SUBJECT, REQUIREMENT = "subjects:stops_in_startup_order", "R-11.2.2.1-13"
 OTHER = "R-11.2.3-15"
@@ -37,12 +37,6 @@ SCRIPT = """\
     - {op: start}
     - {op: stop}
 """
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    within(tmp_path, monkeypatch)
-    return tmp_path
 
 
 @pytest.fixture(scope="module")

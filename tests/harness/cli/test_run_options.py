@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 import pytest
-from command_line import report_of, ucm_cts, within
+from command_line import report_of, ucm_cts
 from made_up_run import crash, lost_call, missing, sample
 from rich.console import Console
 
@@ -24,13 +24,9 @@ from ucm_cts.harness.results.incident_causes import DistinctIncidents
 from ucm_cts.harness.results.tally import of_selection
 from ucm_cts.harness.results.values import RequirementResult
 
+pytestmark = pytest.mark.usefixtures("here")
+
 FAILING, FAILED = "subjects:stops_in_startup_order", "R-11.2.2.1-13"
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    within(tmp_path, monkeypatch)
-    return tmp_path
 
 
 # -k

@@ -7,7 +7,7 @@ import random
 from pathlib import Path
 
 import pytest
-from command_line import ucm_cts, within
+from command_line import ucm_cts
 from hostile import lying
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -19,17 +19,12 @@ from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.report.write import save_report
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Report
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("here")]
 
 LIES = st.lists(
     st.tuples(st.sampled_from(lying.KINDS), st.integers(0, 200), st.integers(0, 200)), min_size=1, max_size=4
 )
 PURPOSES = load_purposes("container")
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    within(tmp_path, monkeypatch)
 
 
 def examples(number: int) -> settings:

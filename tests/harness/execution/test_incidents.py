@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from command_line import report_of, ucm_cts, within
+from command_line import report_of, ucm_cts
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -22,7 +22,7 @@ from ucm_cts.harness.results.values import Incident
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import stated_by
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("here")]
 
 STARTS = Scenario({}, (s.Start(),))
 STOPS = Scenario({}, (s.Start(), s.Stop()))
@@ -30,11 +30,6 @@ LISTS = Scenario({}, (s.GetComponents(),))
 REMOVES_NOTHING = Scenario({}, (s.RemoveContainer("nil"),))
 REMOVES = Scenario({}, (s.CreateContainer("c"), s.RemoveContainer("c"), s.Start()))
 CRASH = Incident("crash", "SIGSEGV")
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    within(tmp_path, monkeypatch)
 
 
 def kinds(adapter: str, limits: Limits, *scenarios: Scenario) -> list[str]:

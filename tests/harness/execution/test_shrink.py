@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import msgspec
 import pytest
-from command_line import within
 
 from ucm_cts.adapters.contract.scenario import AddComponent, CreateContainer, Scenario
 from ucm_cts.harness.execution import shrink
@@ -20,15 +18,12 @@ from ucm_cts.harness.purposes.selection import load_purposes, select
 from ucm_cts.harness.results.tally import cause_of
 from ucm_cts.harness.results.values import ReportedFinding
 
+pytestmark = pytest.mark.usefixtures("here")
+
 SCENARIOS = [scenario for purpose in load_purposes("container") for _, scenario in purpose.scenarios]
 LONGEST = max(
     (x for x in SCENARIOS if not any(isinstance(step, CreateContainer) for step in x.steps)), key=lambda x: len(x.steps)
 )
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    within(tmp_path, monkeypatch)
 
 
 def failures(adapter: str, expression: str) -> tuple[list[ReportedFinding], list[ReportedFinding]]:

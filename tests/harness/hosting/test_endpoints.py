@@ -10,7 +10,6 @@ from typing import Any
 
 import msgspec
 import pytest
-from command_line import within
 from endpoint_runs import Seen, in_a_process_of_its_own, sample, through
 
 from ucm_cts.adapters.contract import scenario as s
@@ -18,7 +17,7 @@ from ucm_cts.adapters.contract.messages import Refused, from_host_decoder
 from ucm_cts.adapters.contract.trace import Return, Siblings, Trace
 from ucm_cts.adapters.reference.cpp import COMMAND
 
-pytestmark = pytest.mark.native
+pytestmark = [pytest.mark.native, pytest.mark.usefixtures("here")]
 
 PYTHON = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 
@@ -61,11 +60,6 @@ def assert_same_traces(one: Seen, other: Seen) -> None:
     assert_same(one, other)
     for name, trace in one.traces.items():
         assert plain(name, other.traces[name]) == plain(name, trace), name
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    within(tmp_path, monkeypatch)
 
 
 @pytest.fixture(params=["tcp://127.0.0.1:0", "unix"])

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from command_line import Outcome, ucm_cts, within
+from command_line import Outcome, ucm_cts
 from files import SUPPORT
 
 from ucm_cts.harness.results.statement import default_statement
@@ -21,18 +21,12 @@ from ucm_cts.harness.toolchains.acceptance import Answer, judge
 from ucm_cts.harness.toolchains.corpus.selection import Question, differing_lines
 from ucm_cts.harness.toolchains.declarations import asked_of_declared
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("here")]
 
 REFERENCE = "ucm_cts.adapters.reference.toolchain"
 FAKE = SUPPORT / "fake_toolchain.py"
 CASE = "R-9.2.4.3-02"
 """The models of one requirement are enough to tell behaviours apart."""
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    within(tmp_path, monkeypatch)
-    return tmp_path
 
 
 def describe(path: Path, command: list[str], **more: object) -> Path:
