@@ -309,8 +309,9 @@ class _TraceReader:
             self.check("over", execution, event.n)
 
     def call_behind(self, event: t.Enter, own: BusinessCall | None) -> BusinessCall | None:
-        """The call of another thread that seems to have led to this entry, else this thread's ``own``."""
-        waiting = [calls[-1] for calls in self.calls if calls and calls[-1].value == event.value]
+        """The call of another thread that seems to have led to this entry, else this thread's ``own``. No call of a method leads there."""
+        newest = [calls[-1] for calls in self.calls if calls]
+        waiting = [call for call in newest if call.value == event.value and not call.is_of_method]
         return waiting[-1] if waiting else own
 
     def request(self, event: t.Request) -> None:

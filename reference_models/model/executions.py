@@ -82,6 +82,11 @@ class BusinessCall:
         return "body" if self.step is None else "test"
 
     @property
+    def is_of_method(self) -> bool:
+        """Does a body call a method with it, and not ``exchange``?"""
+        return self.request is not None and self.request.method is not None
+
+    @property
     def worker(self) -> str | None:
         """The worker whose step it is that led to this call."""
         call = self

@@ -8,7 +8,8 @@ from collections import Counter
 import msgspec
 import pytest
 
-from ucm_cts.adapters.contract.trace import Settled
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Enter, Exit, Settled
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
@@ -72,3 +73,23 @@ def test_worker_not_seen_waiting_is_undecided(seen: str | None) -> None:
                 if seen is not None or not isinstance(event, Settled)
             ]
             assert not EXCLUSION & monitor.judge(answer.disguised, tuple(doubtful)).exercises.keys(), answer.name
+
+
+def test_pending_method_call_leads_to_no_exchange_of_another_thread() -> None:
+    """A call of a method has no number of its own, and 0 is a payload, too."""
+    (circle,) = (p for p in load_purposes("core") if p.id == "circle/active")
+    name, scenario = circle.scenarios[1]
+    *before, called, settled, beside = scenario.steps
+    first, second = (msgspec.structs.replace(beside, value=value) for value in (5, 0))
+    steps: tuple[s.Step, ...] = (*before, first, called, settled, second)
+    with Driver(locate("reference-py"), seed=1) as driver:
+        (answer,) = driver.run([(name, msgspec.structs.replace(scenario, steps=steps))])
+    trace = [
+        msgspec.structs.replace(event, thread=99)
+        if isinstance(event, Enter | Exit) and event.component == "beside" and event.hook == "exchange"
+        else event
+        for event in answer.trace
+    ]
+    (value,) = {step.value for step in answer.disguised.steps[-1:] if isinstance(step, s.Invoke)}
+    assert value == 0
+    assert Monitor(load_life_cycle()).judge(answer.disguised, trace).findings == []
