@@ -27,6 +27,7 @@ KnownAs = Callable[[str, Kind], str]
 
 Ending = Literal["return", "opened", "settled", "counted", "paused", "stressed", ""]
 Returns = Literal["id", "ids", "reference", "value", "records"]
+Undone = Literal["phase", "connection", "transmission"]
 
 
 class StepBase(Value, frozen=True, kw_only=True):
@@ -49,6 +50,9 @@ class StepBase(Value, frozen=True, kw_only=True):
 
     reads_only: ClassVar[bool] = False
     """The call changes nothing about containers, components and connections."""
+
+    undoes: ClassVar[Undone | None] = None
+    """What the call may end: the operational ``phase`` of components, a ``connection``, or ``transmission`` on one."""
 
     wording: ClassVar[str] = ""
     """The arguments as people read them, a format of the fields. Variables are replaced by what they hold."""
@@ -96,6 +100,7 @@ class RemoveComponent(StepBase, frozen=True, tag_field="op", tag="remove_compone
     ``container``: where.
     """
 
+    undoes = "phase"
     wording = "{id}"
 
     id: UsedComponent
@@ -148,6 +153,7 @@ class Disconnect(StepBase, frozen=True, tag_field="op", tag="disconnect"):
     ``container``: where.
     """
 
+    undoes = "connection"
     wording = "{connection}"
 
     connection: UsedConnection
@@ -162,6 +168,8 @@ class Start(StepBase, frozen=True, tag_field="op", tag="start"):
 
 class Stop(StepBase, frozen=True, tag_field="op", tag="stop"):
     """``stop`` the container."""
+
+    undoes = "phase"
 
     container: UsedContainer = MANAGER
 
@@ -192,6 +200,7 @@ class RemoveContainer(StepBase, frozen=True, tag_field="op", tag="remove_contain
     ``container``: the container to remove.
     """
 
+    undoes = "phase"
     wording = "{container}"
 
     container: Annotated[str, Uses("container", (NIL,))]
@@ -199,6 +208,8 @@ class RemoveContainer(StepBase, frozen=True, tag_field="op", tag="remove_contain
 
 class Destroy(StepBase, frozen=True, tag_field="op", tag="destroy"):
     """``destroy`` the runtime."""
+
+    undoes = "phase"
 
 
 ContainerCall = (

@@ -149,6 +149,7 @@ class Detach(StepBase, frozen=True, tag_field="op", tag="detach"):
     """
 
     optional = True
+    undoes = "connection"
     wording = "{id}.{port} from {link}"
 
     link: UsedLink
@@ -165,6 +166,7 @@ class Break(StepBase, frozen=True, tag_field="op", tag="break"):
     """
 
     optional = True
+    undoes = "transmission"
     wording = "{where} of {link}"
 
     link: UsedLink

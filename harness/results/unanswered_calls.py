@@ -18,9 +18,6 @@ from ucm_cts.reference_models.model.executions import call_guarantees
 from ucm_cts.reference_models.model.links import SENDERS
 from ucm_cts.reference_models.model.runtime import lane
 
-_ENDING = (s.Stop, s.RemoveComponent, s.RemoveContainer, s.Destroy, s.Disconnect, s.Detach, s.Break)
-"""Operations that may be the reason why a call in progress does not come back."""
-
 _BETWEEN_COMPONENTS = ("R-11.2.3-03", "interactions")
 _BY_CONNECTOR = {
     s.SERVICE_CONNECTOR: ("R-10.1.5.1-01", "service_call_ends"),
@@ -121,7 +118,7 @@ class _Reading:
         step = self.scenario.steps[event.step]
         if isinstance(step, s.Invoke):
             self.calls[event.n] = _OpenCall(event, self._all_ready() and self.targets.are_there(step))
-        elif isinstance(step, _ENDING):
+        elif step.undoes:
             for call in self.calls.values():
                 call.ended = True
 

@@ -119,8 +119,7 @@ class Interactions:
 
     def ends_phases(self, begin: int, end: int) -> bool:
         """Was something in progress between these events that stops or removes components, or undoes connections?"""
-        ending = s.Stop | s.RemoveComponent | s.RemoveContainer | s.Destroy | s.Disconnect | s.Detach
-        return any(isinstance(o.step, ending) and o.overlaps(begin, end) for o in self.operations)
+        return any(o.step.undoes in ("phase", "connection") and o.overlaps(begin, end) for o in self.operations)
 
     def wait(self, event: t.Timeout) -> None:
         """A wait ran out of patience."""

@@ -22,9 +22,6 @@ values changed on their way; it ended with an exception of the framework's own, 
 exception did not arrive, or another one did.
 """
 
-_ENDING = s.Stop | s.RemoveComponent | s.RemoveContainer | s.Destroy
-"""Operations that take components out of their operational phase."""
-
 _QUIET = 0.5
 """The part of patience in which nothing may have happened for a call to be left hanging."""
 
@@ -87,7 +84,7 @@ def operations_beside(runtime: ObservedRuntime, one: ServiceCall) -> list[Operat
 def disturbed_at(runtime: ObservedRuntime, one: ServiceCall) -> int | None:
     """When something began, while it was in progress or before, that may be a reason not to carry it out."""
     beside = operations_beside(runtime, one)
-    disturbing = [o for o in beside if isinstance(o.step, _ENDING) or _takes_away(runtime, one, o)]
+    disturbing = [o for o in beside if o.step.undoes == "phase" or _takes_away(runtime, one, o)]
     return min((o.begin.n for o in disturbing), default=None)
 
 
