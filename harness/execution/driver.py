@@ -15,6 +15,7 @@ import msgspec
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
 from ucm_cts.adapters.contract.scenario import Scenario, Stress
 from ucm_cts.adapters.contract.trace import Trace
+from ucm_cts.harness.execution.calls_apart import with_calls_apart
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.host_clock import HostClock
@@ -24,6 +25,7 @@ from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
 from ucm_cts.harness.hosting.locate import Endpoint, namesakes
 from ucm_cts.harness.results.incidents import IncidentTime
+from ucm_cts.harness.results.unanswered_calls import is_left_open
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 
 __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
@@ -92,6 +94,8 @@ class Driver:
         self._incident_time = IncidentTime(self._hosts.limits.incident_seconds)
         self._is_near = endpoint.kind in ("python", "executable")
         self._clock: tuple[int, HostClock] = (0, HostClock(self._is_near))
+        self._left_waiting = 0
+        self._calls_apart = False
 
     def __enter__(self) -> Self:
         self.gaps.start()
@@ -118,7 +122,12 @@ class Driver:
         others = tuple(namesakes(self._endpoint, self._hosts.file))
         shadowed = f"the adapter is {self._hosts.file}; another of its name is {', '.join(others)}"
         behind = f"hosts left {left.total()} processes behind, which were ended: {', '.join(sorted(left)[:_SHOWN])}"
-        return (*((shadowed,) if others else ()), *((behind,) if left else ()))
+        waiting = (
+            f"in {self._left_waiting} scenarios calls of what is removed or not started waited for ever, "
+            "which the text leaves open; they fail nothing"
+        )
+        said = (shadowed, bool(others)), (behind, bool(left)), (waiting, bool(self._left_waiting))
+        return tuple(text for text, is_so in said if is_so)
 
     @property
     def disguise(self) -> Disguise:
@@ -146,6 +155,8 @@ class Driver:
                 if case is None:
                     more = False
                     return
+                if self._calls_apart and case.plain is None:
+                    case = self._apart(case)
                 untried = None if insist else self._incident_time.not_tried(case.scenario)
                 waiting.append(replace(case, untried=untried))
                 left_out = left_out + 1 if untried is not None else 0
@@ -164,13 +175,13 @@ class Driver:
                 for reply in replies:
                     yield from untried()
                     case = waiting.popleft()
-                    trace, incident = self._examine(case, reply, insist)
-                    self._incident_time.note_skips(case.run.scenario, trace if incident is None else ())
+                    answer = self._examine(case, reply, insist)
+                    self._incident_time.note_skips(answer.disguised, answer.trace if answer.incident is None else ())
                     lost = isinstance(reply.reply, Incident) and reply.reply.kind in _HOST_IS_GONE
-                    if incident is not None and lost:
-                        self._incident_time.spend(time.monotonic() - began, case.run.scenario, incident, trace)
-                    is_whole = isinstance(reply.reply, Traced) and incident is not None and incident.kind == "hang"
-                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, is_whole, reply.printed)
+                    if answer.incident is not None and (lost or answer.disguised is not case.run.scenario):
+                        took = time.monotonic() - began
+                        self._incident_time.spend(took, answer.disguised, answer.incident, answer.trace)
+                    yield answer
                     if lost:
                         break
                     began = time.monotonic()
@@ -182,8 +193,15 @@ class Driver:
         case = next(source, None)
         if case is None:
             return None
-        name, scenario = case
+        return self._case(*case)
+
+    def _case(self, name: str, scenario: Scenario) -> _Case:
         return _Case(name, scenario, Run(next(self._numbers), self.disguise.scenario(scenario)))
+
+    def _apart(self, case: _Case) -> _Case:
+        """``case`` with its calls on threads of their own."""
+        apart = with_calls_apart(case.scenario)
+        return replace(case if apart is case.scenario else self._case(case.name, apart), plain=case.scenario)
 
     def again(self, name: str, scenario: Scenario, circumstances: Circumstances) -> Answer:
         """The same scenario run once more, on a host of its own, in other ``circumstances``.
@@ -227,22 +245,31 @@ class Driver:
         revealed = self.reveal(Execution("", _EMPTY, answer.trace, answer.incident))
         return msgspec.structs.replace(revealed, name=answer.name, scenario=answer.scenario)
 
-    def _examine(self, case: _Case, answer: HostAnswer, insist: bool) -> tuple[Trace, Incident | None]:
-        run, reply = case.run, answer.reply
-        if isinstance(reply, Traced):
-            problem = contradiction(run.scenario, reply.events, bool(reply.stuck)) or self._out_of_time(answer)
+    def _examine(self, case: _Case, reply: HostAnswer, insist: bool) -> Answer:
+        """What the host's ``reply`` says of ``case``; perhaps it is run again, as it is or with its calls apart."""
+        run, answer = case.run, Answer(case.name, case.scenario, case.run.scenario, (), printed=reply.printed)
+        if isinstance(reply.reply, Traced):
+            answer = replace(answer, trace=reply.reply.events)
+            stuck = set(reply.reply.stuck)
+            problem = contradiction(run.scenario, answer.trace, bool(stuck)) or self._out_of_time(reply)
             if problem is not None:
-                return reply.events, Incident("contradiction", problem)
-            if not set(reply.stuck) <= set(case.scenario.may_stay):
-                return reply.events, Incident("hang", f"threads that never came back: {', '.join(reply.stuck)}")
-            return reply.events, None
-        if isinstance(reply, Refused):
-            return (), Incident("refused", reply.reason)
-        if reply.kind not in FRAMEWORK_INCIDENTS:
-            return (), reply
-        if not insist and not self._incident_time.is_worth_confirming(run.scenario, reply.kind):
-            return (), reply
-        return self._run_again(case, reply)
+                return replace(answer, incident=Incident("contradiction", problem))
+            if stuck <= set((case.plain or case.scenario).may_stay):
+                return answer
+            if is_left_open(Execution("", run.scenario, answer.trace)):
+                self._left_waiting += 1
+                return answer
+            if case.plain is not None:  # apart, calls have less patience than they may have
+                return self._run_again(self._case(case.name, case.plain), None)
+            never = f"threads that never came back: {', '.join(reply.reply.stuck)}"
+            return replace(answer, incident=Incident("hang", never), is_whole=True)
+        if isinstance(reply.reply, Refused):
+            return replace(answer, incident=Incident("refused", reply.reply.reason))
+        if reply.reply.kind not in FRAMEWORK_INCIDENTS:
+            return replace(answer, incident=reply.reply)
+        if not insist and not self._incident_time.is_worth_confirming(run.scenario, reply.reply.kind):
+            return replace(answer, incident=reply.reply)
+        return self._run_again(case, reply.reply)
 
     def _out_of_time(self, answer: HostAnswer) -> str | None:
         """Why the times of the trace cannot be true; None if they can."""
@@ -252,23 +279,41 @@ class Driver:
         events = answer.reply.events if isinstance(answer.reply, Traced) else ()
         return self._clock[1].contradiction(events, answer.sent, received)
 
-    def _run_again(self, case: _Case, first: Incident) -> tuple[Trace, Incident | None]:
-        """Run the scenario once more and have each event sent as it happens, to find what led to the incident.
+    def _run_again(self, case: _Case, first: Incident | None) -> Answer:
+        """Run the scenario once more and have each event sent as it happens, to find what led to the ``first`` incident, if any.
 
-        A run that takes longer than it may and ends all the same was no hang: its trace counts.
+        A run that takes longer than it may and ends all the same was no hang: its trace counts. If the scenario hangs in a
+        call that the text leaves open it is run with its calls apart, and so are all that follow.
         """
-        run = case.run
+        run, answer = case.run, Answer(case.name, case.scenario, case.run.scenario, ())
         began = time.monotonic()
         second = self._hosts.run_again(run)
         took = time.monotonic() - began
+        answer = replace(answer, printed=second.printed)
         self._incident_time.spend_confirming(took)
-        if isinstance(second.reply, Traced) and first.kind == "hang" and took > self._hosts.allowed(run.scenario):
-            return self._examine(case, second, insist=False)  # it is slow, and ends
-        if isinstance(second.reply, Incident) and second.reply.kind == first.kind:
-            return believable(run.scenario, second.happened), msgspec.structs.replace(
-                second.reply, stacks=second.reply.stacks or first.stacks
-            )
-        return (), msgspec.structs.replace(first, reproduced=False)
+        is_slow = first is not None and first.kind == "hang" and took > self._hosts.allowed(run.scenario)
+        if isinstance(second.reply, Traced) and (first is None or is_slow):
+            return self._examine(case, second, insist=False)
+        if isinstance(second.reply, Incident) and (first is None or second.reply.kind == first.kind):
+            happened = believable(run.scenario, second.happened)
+            apart = self._apart(case)
+            if (
+                first is not None
+                and apart.scenario is not case.scenario
+                and _hangs_openly(run.scenario, second, happened)
+            ):
+                self._calls_apart = True
+                return self._examine(apart, self._hosts.run_again(apart.run), insist=False)
+            stacks = second.reply.stacks or (first.stacks if first is not None else "")
+            return replace(answer, trace=happened, incident=msgspec.structs.replace(second.reply, stacks=stacks))
+        if first is None:
+            return self._examine(case, second, insist=True)
+        return replace(answer, incident=msgspec.structs.replace(first, reproduced=False))
+
+
+def _hangs_openly(scenario: Scenario, answer: HostAnswer, happened: Trace) -> bool:
+    hangs = isinstance(answer.reply, Incident) and answer.reply.kind == "hang"
+    return hangs and is_left_open(Execution("", scenario, happened))
 
 
 def _lasting(scenario: Scenario, times: float) -> Scenario:
@@ -284,9 +329,13 @@ def _lasting(scenario: Scenario, times: float) -> Scenario:
 
 @dataclass(frozen=True)
 class _Case:
-    """One scenario in the pipeline: the message for the host, or the reason for leaving it out."""
+    """One scenario in the pipeline: the message for the host, or the reason for leaving it out.
+
+    ``plain``: where its calls are apart, the scenario as it is written.
+    """
 
     name: str
     scenario: Scenario
     run: Run
     untried: Incident | None = None
+    plain: Scenario | None = None

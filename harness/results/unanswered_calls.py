@@ -28,10 +28,14 @@ _BY_CONNECTOR = {
 
 @dataclass
 class _OpenCall:
-    """A business call that has not come back; ``lost``: nothing but the framework can be the reason."""
+    """A business call that has not come back; ``lost``: nothing but the framework can be the reason.
+
+    ``gone``: it leads to what is removed, or through a connection that is undone.
+    """
 
     event: t.Call | t.Request
     possible: bool
+    gone: bool = False
     ended: bool = False
     overdue: bool = False
 
@@ -93,7 +97,7 @@ class _Reading:
                 self._begin(event)
             case t.Request():
                 stack.append(event)
-                self.calls[event.n] = _OpenCall(event, self._all_ready() and self.targets.are_there(event))
+                self._add_call(event, event)
             case t.Enter():
                 stack.append(event)
                 self._note_phase(event)
@@ -117,10 +121,14 @@ class _Reading:
     def _begin(self, event: t.Call) -> None:
         step = self.scenario.steps[event.step]
         if isinstance(step, s.Invoke):
-            self.calls[event.n] = _OpenCall(event, self._all_ready() and self.targets.are_there(step))
+            self._add_call(event, step)
         elif step.undoes:
             for call in self.calls.values():
                 call.ended = True
+
+    def _add_call(self, event: t.Call | t.Request, call: s.Invoke | t.Request) -> None:
+        there = self.targets.are_there(call)
+        self.calls[event.n] = _OpenCall(event, self.all_ready() and there, not there)
 
     def _note_phase(self, event: t.Enter) -> None:
         if event.hook == "on_shutdown":
@@ -139,7 +147,8 @@ class _Reading:
             for call in self.calls.values():
                 call.overdue = call.overdue or not call.ended
 
-    def _all_ready(self) -> bool:
+    def all_ready(self) -> bool:
+        """Is every component operational that is there?"""
         return all(self.ready.values())
 
     def tops(self) -> Iterator[t.Event]:
@@ -149,6 +158,17 @@ class _Reading:
     def has_bodies_inside(self) -> bool:
         """Is a thread inside a body that waits for no call of its own?"""
         return any(isinstance(event, t.Enter) for event in self.tops())
+
+
+def is_left_open(execution: Execution) -> bool:
+    """Is all that is under way at the end of the trace calls that the text leaves open: of what is removed, or not all operational yet?"""
+    reading = _Reading(execution.scenario)
+    for event in execution.trace:
+        reading.take(event)
+    under_way = [reading.calls.get(event.n) for event in reading.tops()]
+    return bool(under_way) and all(
+        call is not None and not call.possible and (call.gone or not reading.all_ready()) for call in under_way
+    )
 
 
 def lost_call(execution: Execution) -> t.Call | t.Request | None:

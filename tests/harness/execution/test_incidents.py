@@ -13,11 +13,13 @@ from command_line import report_of, ucm_cts
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Return, Skip
+from ucm_cts.harness.execution.calls_apart import with_calls_apart
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.purposes.scripts import overlaps
 from ucm_cts.harness.purposes.selection import load_purposes, select
-from ucm_cts.harness.results.incidents import IncidentTime
+from ucm_cts.harness.results.incidents import IncidentTime, finding_of_incident
 from ucm_cts.harness.results.values import Incident
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import stated_by
@@ -159,3 +161,55 @@ def test_threads_that_never_come_back_fail_the_requirement_that_forbids_it() -> 
     assert (result.verdict, report.verdict) == ("fail", "not conformant")
     assert result.exercised > 0
     assert result.findings[0].finding.rule != "declared_errors"
+
+
+ONE = {"server": s.Declaration(provides=("in",))}
+SERVES = (s.AddComponent("server"), s.GetPortElement("server", "in", "api"), s.Start(), s.Invoke("api", 1), s.Stop())
+CALLS_THE_REMOVED = Scenario(ONE, (*SERVES, s.RemoveComponent("server"), s.Invoke("api", 2), s.GetComponents()))
+LOSES = Scenario(ONE, (s.AddComponent("server", bind="other"), *SERVES))
+
+
+def test_what_waits_for_ever_and_may_is_left_waiting_and_the_rest_of_its_scenario_is_run() -> None:
+    with Driver(locate("hostile.failing:LosesCallsBesides"), seed=1, limits=Limits(seconds=1)) as driver:
+        first, *others, lost, last = driver.run(
+            [("open", CALLS_THE_REMOVED), *[("open", CALLS_THE_REMOVED)] * 20, ("lost", LOSES), ("plain", LISTS)]
+        )
+        warnings = driver.warnings
+    for answer in (first, *others):
+        assert answer.incident is None
+        listed = next(n for n, step in enumerate(answer.scenario.steps) if isinstance(step, s.GetComponents))
+        assert [e.value for e in answer.trace if isinstance(e, Return) and e.step == listed] == [()]
+    assert lost.scenario == LOSES, "calls that must come back get all of their time"
+    assert lost.incident is not None
+    assert lost.incident.kind == "hang"
+    finding = finding_of_incident(driver.revealed(lost))
+    assert finding is not None
+    assert finding.requirement == "R-11.2.3-03"
+    assert last.incident is None
+    assert any("in 21 scenarios calls of what is removed" in warning for warning in warnings)
+
+
+def test_calls_that_may_wait_cost_no_verdict() -> None:
+    purposes = select(load_purposes("container"), "later use/removal of the server")
+    with Driver(locate("hostile.failing:LeavesCallsWaiting"), seed=1, limits=Limits(seconds=1)) as driver:
+        campaign = Campaign(driver, "container")
+        for _ in campaign.check(purposes):
+            pass
+        report = campaign.report()
+    assert report.incidents == ()
+    assert report.scenarios == sum(len(purpose.scenarios) for purpose in purposes)
+    assert {result.verdict for result in report.requirements} == {"pass", "inconclusive"}
+    assert report.warnings
+
+
+def test_calls_apart_change_no_verdict() -> None:
+    """Each call of a scenario's own thread gets a thread of its own, and is waited for."""
+    apart = with_calls_apart(CALLS_THE_REMOVED)
+    assert (
+        [step.thread for step in apart.steps if isinstance(step, s.Invoke)]
+        == ["caller1", "caller2"]
+        == [*apart.may_stay]
+    )
+    assert not any(overlaps(apart.steps))
+    assert with_calls_apart(apart) == apart
+    assert with_calls_apart(STOPS) is STOPS

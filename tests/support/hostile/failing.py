@@ -12,6 +12,8 @@ from typing import Any
 from ucm_cts.adapters.contract.adapter import ContainerHandle
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.framework import Container
+from ucm_cts.adapters.reference.python.members import Member
 
 
 class HangsInStop(ReferenceAdapter):
@@ -53,6 +55,35 @@ class LosesCalls(ReferenceAdapter):
     def get_port_element(self, container: ContainerHandle, comp_instance: int, port_name: str) -> PortElementObject:
         super().get_port_element(container, comp_instance, port_name)
         return _Silent()
+
+
+class _OfWhatRuns(PortElementObject):
+    """Calls of a component that is not operational, or removed, never come back, nor those of one among more than ``most``."""
+
+    def __init__(self, target: PortElementObject, container: Container, member: Member, most: int) -> None:
+        self._target, self._container, self._member, self._most = target, container, member, most
+
+    def exchange(self, value: int) -> int:
+        if len(self._container.members) > self._most or self._member not in self._container.started:
+            threading.Event().wait()
+        return self._target.exchange(value)
+
+
+class LeavesCallsWaiting(ReferenceAdapter):
+    """Calls of what is not operational, or removed, wait for ever."""
+
+    most = 1 << 20
+
+    def get_port_element(self, container: ContainerHandle, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(container, comp_instance, port_name)
+        assert isinstance(container, Container)
+        return _OfWhatRuns(element, container, container.members[comp_instance], self.most)
+
+
+class LosesCallsBesides(LeavesCallsWaiting):
+    """The same; and calls of one of two components are lost."""
+
+    most = 1
 
 
 class DiesAtOnce(ReferenceAdapter):
