@@ -144,6 +144,20 @@ def lists(vendor: Vendor, fact: exp.Lists) -> list[Wrong]:
     return [Wrong(f"{fact.path[-1]} to have {_names(wanted)}", _names(found), declaration.place)]
 
 
+def ordered(vendor: Vendor, fact: exp.Ordered) -> list[Wrong]:
+    """Whether enumerators stand in an order that the model gives them; which they are is another fact's matter."""
+    if vendor.reading("idl-enumerator-order") == "free":
+        raise NotExercised
+    hit = here(vendor, fact.path, idl.Enum)
+    found = [one.name for one in _listed(hit.entry.declaration)]
+    orders = [[_written(vendor, hit, name) for name in order] for order in fact.orders]
+    if sorted(found) != sorted(orders[0]):
+        raise NotExercised
+    if found in orders:
+        return []
+    return [Wrong(f"{fact.path[-1]} to have {_names(orders[0])}", _names(found), hit.entry.declaration.place)]
+
+
 def _written(vendor: Vendor, hit: Hit, name: str) -> str:
     found = vendor.inside(hit, name)
     return found.entry.declaration.name if found is not None else spelled(name)
@@ -275,6 +289,7 @@ FACTS: Mapping[type[exp.Expected], Callable[[Vendor, Any], list[Wrong]]] = {
     exp.Means: means,
     exp.Selects: selects,
     exp.Lists: lists,
+    exp.Ordered: ordered,
     exp.Labelled: labelled,
     exp.Valued: valued,
     exp.Templated: templated,

@@ -179,7 +179,7 @@ def _getters(vendor: Vendor, holder: Hit, names: tuple[str, ...]) -> list[Hit]:
 
 
 def getter(vendor: Vendor, fact: exp.Getter) -> list[Wrong]:
-    """Whether the operation that hands out a port element is there, takes nothing, and returns the right interface."""
+    """Whether the operation that hands out a port element is there, takes and raises nothing, and returns the right interface."""
     holder = _holder(vendor, fact.path, fact.otherwise)
     found = _getters(vendor, holder, fact.names)
     place = holder.entry.declaration.place
@@ -199,7 +199,10 @@ def getter(vendor: Vendor, fact: exp.Getter) -> list[Wrong]:
     assert isinstance(operation, Operation)
     if fact.aspect == "arguments":
         parameters = [(p.direction, p.name) for p in operation.parameters]
-        return [Wrong(f"{operation.name}()", f"({_shown(parameters)})", operation.place)] if parameters else []
+        if parameters:
+            return [Wrong(f"{operation.name}()", f"({_shown(parameters)})", operation.place)]
+        raised = ", ".join(operation.raises)
+        return [Wrong(f"{operation.name} to raise nothing", raised, operation.place)] if raised else []
     if not vendor.known(operation.returns, hit.entry.scope, hit.bound) or vendor.is_open(fact.returns):
         raise NotExercised
     if _returns(vendor, hit, operation, fact):

@@ -41,6 +41,7 @@ from ucm_cts.reference_models.mapping.idl.expectations import (
     Lists,
     Means,
     Numbered,
+    Ordered,
     Path,
     Selects,
     Tagged,
@@ -192,7 +193,11 @@ def _named_type(declared: Declared) -> Type:
 
 
 def _enumeration(subject: Subject, enumeration: Enumeration) -> Iterator[Expected]:
-    yield Lists(**subject.about("R-12.4.1-07"), names=tuple(one.name for one in enumeration.enumerators), ordered=False)
+    names = tuple(one.name for one in enumeration.enumerators)
+    yield Lists(**subject.about("R-12.4.1-07"), names=names, ordered=False)
+    numbers = {one.name: one.value for one in enumeration.enumerators if one.value is not None}
+    by_value = tuple(sorted(names, key=lambda name: numbers[name])) if len(numbers) == len(names) else names
+    yield Ordered(**subject.about("R-12.4.1-12"), orders=(names, by_value))
     values = tuple((one.name, one.value) for one in enumeration.enumerators if one.value is not None)
     if values and len(values) == len(enumeration.enumerators):
         yield Numbered(**subject.about("R-12.4.1.3-02"), values=values)

@@ -19,7 +19,7 @@ STANDS_FOR: dict[str, tuple[str, ...]] = {
     "idl_types": (
         "R-12.2-03",
         *(f"R-12.3.1-{n:02}" for n in range(1, 14)),
-        *(f"R-12.4.1-{n:02}" for n in range(1, 12)),
+        *(f"R-12.4.1-{n:02}" for n in range(1, 13)),
     ),
     "idl_annotations": (
         *("R-12.3.2-02", "R-12.3.2-03", "R-12.4.1.1-02", "R-12.4.1.1-03", "R-12.4.1.3-02", "R-12.4.1.3-03"),
@@ -90,6 +90,12 @@ class Lists(Expected, frozen=True, kw_only=True):
 
     names: tuple[str, ...]
     ordered: bool = True
+
+
+class Ordered(Expected, frozen=True, kw_only=True):
+    """Its enumerators stand in one of these orders, unless option idl-enumerator-order frees them."""
+
+    orders: tuple[tuple[str, ...], ...]
 
 
 class Takes(Expected, frozen=True, kw_only=True):
