@@ -13,7 +13,7 @@ from click.core import ParameterSource
 import ucm_cts
 from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.profiles import PROFILES, TOOLCHAIN_PROFILES
-from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.compare_command import compare
 from ucm_cts.harness.cli.explanation import explanation, overview
@@ -29,7 +29,7 @@ from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
-from ucm_cts.harness.report.diagrams.sequence_text import failure_text, printed_text, replay_text
+from ucm_cts.harness.report.diagrams.sequence_text import finding_text, printed_text, replay_text
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean
 from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.harness.statement.writing import Wanted, write_statement, write_toolchain_statement
@@ -233,14 +233,17 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
     scripts = read_scripts(file)
     endpoint = locate(adapter, in_process)
     monitor = Monitor(load_life_cycle(), stated_by(ics, adapter).ics)
+    titles = {requirement.id: requirement.title for requirement in load_requirements()}
     console = Output()
     failed = False
     with ends_like_interrupts(), Driver(endpoint, seed or 0, Limits(timeout)) as driver:
         for script in scripts:
             (answer,) = driver.run([(script.scenario, to_scenario(script))])
             execution = driver.revealed(answer)
+            judged = monitor.judge(answer.disguised, answer.trace).findings if execution.incident is None else ()
+            findings = [driver.reveal(finding) for finding in judged]
             console.out(f"{execution.name} on {options.name_of(driver.identity)}\n", highlight=False)
-            console.out(replay_text(execution), highlight=False)
+            console.out(replay_text(execution, findings), highlight=False)
             if answer.printed.strip():
                 console.out(printed_text(answer.printed, file, adapter), highlight=False)
             if execution.incident is not None:
@@ -248,9 +251,8 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
                 text = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
                 console.out(f"\n{execution.incident.kind}: {text}", highlight=False)
                 continue
-            findings = [driver.reveal(f) for f in monitor.judge(answer.disguised, answer.trace).findings]
             for finding in findings:
-                console.out("\n" + failure_text(finding, execution), highlight=False)
+                console.out("\n" + finding_text(finding, titles[finding.requirement], execution), highlight=False)
             failed = failed or bool(findings)
             number = f"{len(findings) or 'no'} finding{'' if len(findings) == 1 else 's'}"
             console.out(f"\n{number}", highlight=False)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ucm_cts.harness.report.diagrams.excerpt import compare
+from ucm_cts.harness.report.diagrams.excerpt import Comparison, compare
 from ucm_cts.harness.report.diagrams.sequence import Diagram, Line, lay_out
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.results.values import Execution
@@ -26,19 +26,33 @@ SHARED = 4
 _MARKS = {"normal": " ", "offending": "✗", "expected": "✓"}
 
 
-def replay_text(execution: Execution, finding: Finding | None = None, width: int = WIDTH) -> str:
-    """A whole execution as text, with the offending lines of ``finding`` marked."""
-    return to_text(lay_out(execution, finding.events if finding else ()), width)
+def replay_text(execution: Execution, findings: Sequence[Finding] = (), width: int = WIDTH) -> str:
+    """A whole execution as text, with the offending lines of ``findings`` marked."""
+    return to_text(lay_out(execution, [event for finding in findings for event in finding.events]), width)
 
 
 def failure_text(finding: Finding, execution: Execution, width: int = WIDTH) -> str:
     """Both diagrams of a failure, one below the other; the second begins shortly before they part."""
     both = compare(finding, execution)
+    return f"observed\n{to_text(both.observed, width)}\n\n{_expected_text(both, width)}"
+
+
+def finding_text(finding: Finding, title: str, execution: Execution, width: int = WIDTH) -> str:
+    """What ``finding`` says below a whole ``execution``: its requirement with its ``title``, its rule, and what was expected."""
+    where = f", at {', '.join(map(str, finding.events))}" if finding.events else ""
+    rows = [
+        f"✗ {finding.requirement}  {one_line(title)} (rule {finding.rule}{where})",
+        f"  expected  {one_line(finding.expected, 300)}",
+        f"  observed  {one_line(finding.observed, 300)}",
+    ]
+    return "\n".join([*rows, "", _expected_text(compare(finding, execution), width)])
+
+
+def _expected_text(both: Comparison, width: int) -> str:
     shared = next((i for i, line in enumerate(both.expected.lines) if line.style == "expected"), 0)
     start = max(0, shared - SHARED)
     again = replace(both.expected, lines=both.expected.lines[start:])
-    head = "expected instead" if start else "expected"
-    return f"observed\n{to_text(both.observed, width)}\n\n{head}\n{to_text(again, width)}"
+    return f"{'expected instead' if start else 'expected'}\n{to_text(again, width)}"
 
 
 def to_text(diagram: Diagram, width: int = WIDTH) -> str:

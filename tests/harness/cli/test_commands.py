@@ -397,6 +397,10 @@ def test_saved_failure_fails_again_the_same_way(failed: tuple[Outcome, Path]) ->
     again = ucm_cts("replay", saved, SUBJECT)
     assert (again.status, again.err) == (1, "")
     assert "1 finding" in again.out
+    assert again.out.count(" add_component ") == 2, "the trace is printed once"
+    (title,) = [r.title for r in load_requirements() if r.id == REQUIREMENT]
+    assert f"\n✗ {REQUIREMENT}  {title} (rule stop_order, at " in again.out
+    assert "\n  expected  stop shuts down " in again.out
     assert len(json.loads(saved.read_text())["steps"]) == 4, "two members, start, stop"
     report = report_of(failed[1])
     assert len([r for r in report["requirements"] if r["verdict"] == "fail"]) == 1
