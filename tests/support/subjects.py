@@ -79,6 +79,26 @@ class Unbreakable(ReferenceAdapter):
         raise NotOffered
 
 
+class SlowAtFirst(ReferenceAdapter):
+    """Never ends its first start, and executes nothing by itself in the runtime after: as if the machine stood still."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        self._is_running = any(p.definition == d.SELF_EXECUTING for one in implementations for p in one.policies)
+        made = Path("made")
+        self._before = made.stat().st_size if made.exists() else 0
+        if self._is_running:
+            with made.open("a") as file:
+                file.write("x")
+        if self._is_running and self._before == 1:
+            implementations = [replace(one, policies=()) for one in implementations]
+        return super().create_runtime(implementations)
+
+    def start(self, container: Any) -> None:
+        if self._is_running and not self._before:
+            threading.Event().wait()
+        super().start(container)
+
+
 class _Ignoring(ReferenceAdapter):
     """Its framework never sees some policies."""
 

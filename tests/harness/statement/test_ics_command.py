@@ -45,6 +45,15 @@ def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
     assert report_of(here / "ucm-cts-report")["statement"]["source"] == "ucm-cts-ics.toml"
 
 
+def test_what_a_loaded_machine_shows_once_is_asked_again(here: Path) -> None:
+    outcome = ucm_cts("ics", "subjects:SlowAtFirst", "--full")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert (here / "made").stat().st_size == 3, "it waited for ever, then in vain, and then answered"
+    statement = read_statement(here / "ucm-cts-ics.toml")
+    assert statement.profiles == FRAMEWORK_PROFILES
+    assert all(statement.capabilities.values())
+
+
 def test_a_short_statement_has_what_differs_and_what_must_be_decided(here: Path) -> None:
     assert ucm_cts("ics", ADAPTER).status == 0
     text = (here / "ucm-cts-ics.toml").read_text()
