@@ -132,6 +132,7 @@ REWRITTEN: Mapping[str, tuple[Callable[[Files], Files], tuple[str, ...]]] = {
     "connections_derived": (_connections_derived, ()),
     "plain_members": (_plain_members, ("cpp-struct=plain",)),
     "bounded_vectors": (_bounded_vectors, ()),
+    "bounded_vectors_as_declared": (_bounded_vectors, ("cpp-bounded-sequence=bounded-vector",)),
 }
 
 for _says, _freedom in table("variants/cpp.yaml", dict[str, Wrong]).items():

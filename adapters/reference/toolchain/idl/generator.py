@@ -35,9 +35,9 @@ def generate(model: Model) -> Mapping[str, str]:
     return files_of(model)
 
 
-def files_of(model: Model) -> Mapping[str, str]:
-    """The files of ``model``, by their names, in which names may clash."""
-    writer = Writer(model)
+def files_of(model: Model, templates: type[Templates] = Templates) -> Mapping[str, str]:
+    """The files of ``model``, by their names, in which names may clash; ``templates`` says which modules become templates."""
+    writer = Writer(model, templates)
     lines = [*HEAD, *writer.written(), "", "#endif", ""]
     return {"ucm.idl": STANDARD, "model.idl": "\n".join(lines)}
 
@@ -55,9 +55,9 @@ class Unit:
 class Writer:
     """Puts the declarations of a model in order and writes them."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, templates: type[Templates]) -> None:
         self._names = Names(model)
-        self._templates = Templates(self._names)
+        self._templates = templates(self._names)
         self._components = Components(model, self._names, self._templates)
         self._with_base = port_element_interfaces(model, self._names)
         self._units: dict[int, list[Unit]] = {}
