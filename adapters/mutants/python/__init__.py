@@ -45,6 +45,7 @@ MODULES = {
         "attachments",
         "clocks_and_traces",
         "declared",
+        "draining",
         "execution",
         "messages",
         "phases",
