@@ -18,6 +18,7 @@ from ucm_cts.harness.report.write import keep_files
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.selftest.cheat_trials import all_cheats
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult
+from ucm_cts.harness.selftest.model_variants import model_variants
 from ucm_cts.harness.selftest.models_killing import all_models
 from ucm_cts.harness.selftest.page import MATRIX_FILES, matrix_files, rows
 from ucm_cts.harness.selftest.running import Result, SelfTest
@@ -69,7 +70,7 @@ def selftest(
         subjects = {**all_mutants(), **all_variants()}
         chosen = list(names(subjects, names_wanted, all_cheats()))
         cheats = [name for name in all_cheats() if name in names_wanted or not names_wanted]
-        models = () if names_wanted else all_models()
+        models = () if names_wanted else (*all_models(), *(() if quick else model_variants()))
     if listed:
         _list(chosen, cheats, models, console)
         return
@@ -111,8 +112,9 @@ def _list(
         console.say(f"{subject.name} {text}")
     for name in cheats:
         console.say(f"{name} cheats: {all_cheats()[name].lie}")
-    for requirement in models:
-        console.say(f"models of {requirement} are spoilt, in every way")
+    for name in models:
+        is_variant = name in model_variants()
+        console.say(f"models: {name} is conformant" if is_variant else f"models of {name} are spoilt, in every way")
 
 
 def _conduct(conduct: SelfTest, console: Output) -> bool:

@@ -22,6 +22,7 @@ class Reading(Value, frozen=True):
     ``attributes``: attributes that differ.
     ``missing``: the declaration may be missing.
     ``always``: holds whether or not the vendor declares it.
+    ``direct``: the attributes say it themselves, not by the name of a declared type.
     """
 
     option: str
@@ -29,6 +30,7 @@ class Reading(Value, frozen=True):
     attributes: dict[str, str] = {}
     missing: bool = False
     always: bool = False
+    direct: bool = False
 
 
 class Declaration(Value, frozen=True):
@@ -196,31 +198,33 @@ class Comparing:
             self._note(requirement, "twin", "one declaration", observed)
 
     def _attributes(self, ours: Element, theirs: Element, declaration: Declaration, readings: list[Reading]) -> None:
-        expected = dict(ours.attributes)
+        expected, direct = dict(ours.attributes), set[str]()
         for option in dict.fromkeys(r.option for r in declaration.readings):
             touched = {a for r in declaration.readings if r.option == option for a in r.attributes}
             accepted = [r for r in readings if r.option == option and not r.missing]
             fitting = [
                 r for r in accepted
-                if all(self._equal(a, (ours.attributes | r.attributes).get(a, ""), ours, theirs) for a in touched)
+                if all(self._equal(a, (ours.attributes | r.attributes).get(a, ""), ours, theirs, r.direct) for a in touched)
             ]  # fmt: skip
             if fitting:
                 self._met(fitting[0])
-            expected |= (fitting or accepted or [Reading("", "")])[0].attributes
+            chosen = (fitting or accepted or [Reading("", "")])[0]
+            expected |= chosen.attributes
+            direct |= chosen.attributes.keys() if chosen.direct else set()
         for attribute, value in expected.items():
             if attribute == "name":
                 continue
             fact, there = _KEPT, theirs.attributes.get(attribute, "")
-            if not self._equal(attribute, value, ours, theirs):
+            if not self._equal(attribute, value, ours, theirs, attribute in direct):
                 strange = _is_strange(attribute, value, there) if there else set(theirs.attributes) - KNOWN_ATTRIBUTES
                 text = f"{attribute} {there}" if there else f"no {attribute}" if value else ""
                 status: Status = "unclear" if strange or theirs.tag not in KNOWN_TAGS else "broken"
                 fact = Fact(status, f"{attribute} {value}" if value else f"no {attribute}", f"{text} ({theirs.where})")
             self._file(declaration.requirement, attribute, fact)
 
-    def _equal(self, attribute: str, value: str, ours: Element, theirs: Element) -> bool:
+    def _equal(self, attribute: str, value: str, ours: Element, theirs: Element, direct: bool) -> bool:
         there = theirs.attributes.get(attribute, "")
-        if attribute not in _REFERENCES or not value or not there or there == value in INTEGERS:
+        if direct or attribute not in _REFERENCES or not value or not there or there == value in INTEGERS:
             return there == value
         named = self._named(there, theirs)
         if value in INTEGERS:

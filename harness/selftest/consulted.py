@@ -33,9 +33,7 @@ class ConsultedReadings(dict[str, str]):
 @functools.cache
 def consulted_for(task: str) -> Mapping[str, frozenset[str]]:
     """By the name of each model that code is generated from for ``task``: the options on which the comparison of its files depends."""
-    return {
-        name: _consulted(task, text, name) for name, text in mapping_models().items() if not name.startswith(OPEN)
-    }
+    return {name: _consulted(task, text, name) for name, text in mapping_models().items() if not name.startswith(OPEN)}
 
 
 def _consulted(task: str, text: str, name: str) -> frozenset[str]:

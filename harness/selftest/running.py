@@ -16,6 +16,7 @@ from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.selftest.cheat_trials import all_cheats, examine_cheat
 from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
+from ucm_cts.harness.selftest.model_variants import examine_model_variant, model_variants
 from ucm_cts.harness.selftest.models_killing import examine_models
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, examine_toolchain, testable_of_toolchains
 from ucm_cts.harness.selftest.trials import (
@@ -46,10 +47,10 @@ class SelfTest:
 
     def run(self, report: Callable[[Result], None]) -> None:
         """Examine all subjects; ``report`` is called with each result."""
-        for requirement in self.models:
-            spoilt = examine_models(requirement)
-            self._done[spoilt.name] = spoilt
-            report(spoilt)
+        for name in self.models:
+            result = examine_model_variant(name) if name in model_variants() else examine_models(name)
+            self._done[result.name] = result
+            report(result)
         self._examine_all([*self.mutants, *self.variants], report)
         self._examine_all(self.cheats, report, uses=1)  # they run in the harness's process and may change it
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import msgspec
@@ -16,6 +16,7 @@ from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.values import MODEL_FILE, RequirementResult
+from ucm_cts.harness.selftest.consulted import consulted_for
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.commands.processing import InProcess
@@ -90,7 +91,8 @@ def _batches(derived: Mutant | Variant, program: Program) -> list[tuple[str, ...
     """The models to go through, None for all of them at once.
 
     What a generator makes as the reference tool chain makes it has been judged there. Of what it makes otherwise a mutant gets
-    some after others, until it is found out; a variant gets the smallest and the largest ones.
+    some after others, until it is found out; a variant gets the smallest and the largest ones, and of each option that it
+    declares models whose comparison depends on that.
     """
     if derived.task == "check":
         return [None]
@@ -100,8 +102,19 @@ def _batches(derived: Mutant | Variant, program: Program) -> list[tuple[str, ...
         if _made(program, derived.task, text) != _usual(derived.task, text)
     ]
     if isinstance(derived, Variant):
-        return [tuple(dict.fromkeys((*names[:SOME], *names[-SOME:])))] if names else []
+        wanted = tuple(dict.fromkeys((*names[:SOME], *names[-SOME:], *_shows_what_is_declared(derived, names))))
+        return [wanted] if wanted else []
     return [tuple(names[first : first + SOME]) for first in range(0, len(names), SOME)]
+
+
+def _shows_what_is_declared(variant: Variant, changed: Collection[str]) -> Iterator[str]:
+    """For each option that ``variant`` declares, the smallest and the largest model that depends on it, if possible of those ``changed``."""
+    consulted = consulted_for(variant.task) if variant.declares else {}
+    for reading in variant.declares:
+        option = reading.partition("=")[0]
+        of_option = [name for name, options in consulted.items() if option in options]
+        shown = [name for name in of_option if name in changed] or of_option
+        yield from (*shown[:1], *shown[-1:])
 
 
 def _made(program: Program, task: str, text: str) -> object:

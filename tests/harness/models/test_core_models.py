@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
@@ -11,8 +11,10 @@ from lxml import etree
 
 from ucm_cts.adapters.reference.cpp import STATEMENT
 from ucm_cts.harness.catalogue.documents import DocumentError
+from ucm_cts.harness.catalogue.requirements import load_options
 from ucm_cts.harness.models import core_models
 from ucm_cts.harness.models.core_models import CORE, Declaration, compare
+from ucm_cts.harness.selftest.model_variants import ModelVariant, examine_model_variant, model_variants
 from ucm_cts.harness.selftest.spoilt_models import declarations, element_of, repeating, spoilt_results
 from ucm_cts.harness.statement.files import read_statement
 
@@ -20,8 +22,9 @@ DECLARATIONS = declarations()
 each_declaration = pytest.mark.parametrize("declaration", DECLARATIONS.values(), ids=DECLARATIONS.keys())
 
 
-def having(status: str, path: Path, claims: Mapping[str, str] = {}) -> set[str]:
-    return {r.requirement for r in compare([path], claims).results if r.status == status}
+def having(status: str, path: Path | Sequence[Path], claims: Mapping[str, str] = {}) -> set[str]:
+    paths = [path] if isinstance(path, Path) else path
+    return {r.requirement for r in compare(paths, claims).results if r.status == status}
 
 
 def test_our_own_models_keep_everything() -> None:
@@ -193,61 +196,25 @@ def test_lwucm_ships_models_that_keep_everything(tmp_path: Path) -> None:
 
 # readings
 
-NARROW = '<StringType charBase="CHAR8" maxSize="255" name="log_message_t"/>'
-FIVE = [
-    ('<Enumerator name="trace".*?>', ""),
-    ("critical", "fatal"),
-    *[(f'value="{n}"', f'value="{n - 1}"') for n in range(1, 6)],
-]
-FIELD = ('name="utv_usec"', 'name="ucm_usec"')
-NO_PARAMETERS = ("<ConfigurationParameter[^>]*>", "")
-READINGS: list[tuple[str, str, list[tuple[str, str]], str, set[str]]] = [
-    ("clock-usec-field", "ucm_usec", [FIELD], "*", {"R-10.1.4.2-16"}),
-    (
-        "service-client-item",
-        "verbatim",
-        [('(client".*?item=")service_intf', r"\1service_intf_t")],
-        "services*",
-        {"R-10.1.5.2-06"},
-    ),
-    ("service-port-api", "absent", [('api="service_[a-z]*_tport"', "")], "*", {"R-10.1.5.2-15", "R-10.1.5.2-16"}),
-    ("comm-ecode-index", "kind", [('indexType="comm_ecode_enumerator_t"', 'indexType="BYTE"')], "*", {"R-10.1.2-04"}),
-    ("log-severity-set", "idl-5", FIVE, "container*", {f"R-10.1.4.2-{n}" for n in range(39, 45)}),
-    ("log-severity-index", "BYTE", [('indexType="ULONG"', 'indexType="BYTE"')], "*", {"R-10.1.4.2-38"}),
-    (
-        "log-severity-index",
-        "BYTE",
-        [('indexType="ULONG"', 'indexType="log_severity_enumerator_t"')],
-        "*",
-        {"R-10.1.4.2-38"},
-    ),
-    ("log-message", "narrow-255", [("<String32[^>]*>", NARROW)], "*", {"R-10.1.4.2-46"}),
-    ("protected-active-applicability", "onComponent", [("onPort", "onComponent")], "component*", {"R-10.1.3.1-07"}),
-    ("protected-active-applicability", "onBoth", [("onPort", "onBoth")], "component*", {"R-10.1.3.1-07"}),
-    ("port-trace-applicability", "onBoth", [("onPort", "onBoth")], "container*", {"R-10.1.4.2-30"}),
-    ("port-trace-applicability", "onComponent", [("onPort", "onComponent")], "container*", set()),
-    ("port-trace-parameters", "none", [NO_PARAMETERS], "*", {"R-10.1.4.2-31", "R-10.1.4.2-34"}),
-]
 
-
-@pytest.mark.parametrize(("option", "value", "replacements", "of", "concerned"), READINGS)
-def test_reading(
-    option: str, value: str, replacements: list[tuple[str, str]], of: str, concerned: set[str], tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("variant", model_variants().values(), ids=model_variants().keys())
+def test_reading(variant: ModelVariant, tmp_path: Path) -> None:
+    result = examine_model_variant(variant.name)
+    assert result.is_spared, result
+    option, value, paths = variant.option, variant.value, variant.write(tmp_path)
     first = core_models._first_values()[option]
-    path = rewritten(tmp_path, *replacements, of=of)
-    declared = compare([path], {option: value})
-    assert not [r for r in declared.results if r.status in ("broken", "unclear")]
-    assert value in declared.readings[option]
-    undeclared = having("broken", path) - {"R-10.1.4.2-24"}
-    assert undeclared == (set() if first == "observed" else concerned)
-    if first == "observed":
-        assert compare([path]).readings[option] == {value}
-        others = {
-            v for i in core_models.load_interpretations() for v in i.options.get(option, ()) if v not in (first, value)
-        }
-        for other in others:
-            assert having("broken", path, {option: other}) & concerned
+    assert value in compare(paths, {option: value}).readings.get(option, {value})
+    undeclared = having("broken", paths) - {"R-10.1.4.2-24"}
+    if first != "observed":
+        assert undeclared == variant.concerned
+        return
+    assert undeclared == set()
+    assert compare(paths).readings[option] == {value}
+    for other in {*load_options()[option]} - {first, value}:
+        if variant.root != "both":  # then each claim holds
+            broken = having("broken", paths, {option: other})
+            assert broken
+            assert broken & variant.concerned or not variant.concerned
 
 
 def test_unused_type_may_be_missing(tmp_path: Path) -> None:
