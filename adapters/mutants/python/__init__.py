@@ -53,6 +53,7 @@ MODULES = {
         "restarts",
         "services",
         "starting",
+        "undemanding",
     ),
     "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states", "types"),
     "execution": ("policies", "running"),

@@ -22,6 +22,7 @@ _TRACES, _DATA = ("10.1.4",), ("10.1.1",)
     *CONTAINER,
     readings={
         "callback-failure": "error",
+        "container-interface": "once",
         "double-start": "noop",
         "late-add": "refuse",
         "late-container": "allowed",
@@ -38,6 +39,7 @@ _TRACES, _DATA = ("10.1.4",), ("10.1.1",)
         "start-unconfigured": "refuse",
         "stop-drain": "abandon",
         "stop-when-stopped": "noop",
+        "unknown-names": "not-found",
     },
 )
 class declares_its_life_cycle(Base):
@@ -51,6 +53,8 @@ def _few_values(of: Any, value: Any) -> Any:
     match of:
         case Integer(kind="BYTE") if value < 0:
             raise UcmError("a byte has no sign")
+        case Char(kind="CHAR8") if value > 0x7F:
+            raise UcmError("a character of 8 bits is not one of ASCII")
         case Char(kind="CHAR32") if value > 0xFFFF:
             raise UcmError("a character is beyond the Basic Multilingual Plane")
         case SequenceType() if 0 <= of.size != len(value):
@@ -58,14 +62,17 @@ def _few_values(of: Any, value: Any) -> Any:
     return value
 
 
-@variant_of(*_DATA, readings={"byte": "unsigned", "char32": "bmp", "bounded-sequence": "full-only"})
+@variant_of(*_DATA, readings={"byte": "unsigned", "char8": "ascii", "char32": "bmp", "bounded-sequence": "full-only"})
 class carries_few_values(ChangingLink):
-    """Bytes have no sign, characters 16 bits, and bounded sequences are full; all else raises."""
+    """Bytes have no sign, characters 7 or 16 bits, and bounded sequences are full; all else raises."""
 
     change = staticmethod(_few_values)
 
 
-@variant_of(*_DATA, readings={"char8": "byte", "byte": "signed", "char32": "full", "bounded-sequence": "any-length"})
+@variant_of(
+    *_DATA,
+    readings={"char8": "byte", "byte": "signed", "char32": "full", "bounded-sequence": "any-length", "nan": "exact"},
+)
 class carries_many_values(Base):
     """The reference framework, whose characters of 8 bits are not only those of ASCII."""
 
@@ -73,14 +80,22 @@ class carries_many_values(Base):
 # clocks and traces (10.1.4)
 
 
-@variant_of(*_TRACES, readings={"clock-epoch": "unix"})
+@variant_of(*_TRACES, readings={"clock-epoch": "unix", "local-clock": "settable"})
 class has_calendar_clocks(Base):
     """Local time is that of the calendar, as the vendor declares."""
 
 
 @variant_of(
     *_TRACES,
-    readings={"log-severity-set": "model-6", "methods-to-trace": "list", "port-trace-records": "call"},
+    readings={
+        "log-message": "wide-unbounded",
+        "log-severity-set": "model-6",
+        "log-threshold": "none",
+        "methods-to-trace": "list",
+        "port-trace-applicability": "onPort",
+        "port-trace-parameters": "both",
+        "port-trace-records": "call",
+    },
 )
 class declares_its_traces(Base):
     """The reference framework; its vendor declares what it traces."""

@@ -167,7 +167,7 @@ class replaces_connections(appends_connections):
         super()._connect(connection)
 
 
-@variant
+@variant_of(*CONTAINER, readings={"id-scope": "container"})
 class reuses_ids(Base):
     """The smallest free number is the next id; components and connections count separately in each container."""
 

@@ -80,7 +80,9 @@ def serves_each_call_on_a_new_thread(self: Link, method: str, arguments: Sequenc
 # servers
 
 
-@variant_of(*_CLAUSES, readings={"second-server": "at-connect", "call-in-flight": "finishes"})
+@variant_of(
+    *_CLAUSES, readings={"second-server": "at-connect", "call-in-flight": "finishes", "exception-transport": "full"}
+)
 class declares_its_services(Base):
     """The reference framework; its vendor declares what it does with servers and calls."""
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ucm_cts.adapters.contract.metamodel import contracts as c
-from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.common import Element, walk
 from ucm_cts.adapters.contract.metamodel.modules import Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.mutants.toolchain.checking import deaf, refusing
+from ucm_cts.adapters.mutants.toolchain.checking import deaf, refusing, refusing_text
 from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
-from ucm_cts.adapters.reference.toolchain.checking import Complaint
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, Rule
 from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
 
@@ -84,3 +86,50 @@ def bare_text(program: Program) -> Program:
             yield from program.rules["constants_follow_the_grammar"].complaints(constant, scope)
 
     return replacing_rule(replacing_rule(program, name, complaints), "constants_follow_the_grammar", follows)
+
+
+_LITERAL = re.compile(
+    r"-?(0[xX][0-9a-fA-F]+|\d+\.?\d*([eE][-+]?\d+)?|\.\d+([eE][-+]?\d+)?)|\".*\"|'.*'|[A-Za-z_]\w*", re.DOTALL
+)
+"""A number, a text, or a name, which must be that of an enumerator or a truth value."""
+
+_DECLARATIONS = (c.Alias, c.Array, c.Sequence, c.Structure, c.Interface, c.Constant)
+
+
+def _uncertain_names(element: Element, scope: Scope) -> Iterator[Complaint]:
+    for part in walk(element):
+        for field in ("type", "interface", "exception"):
+            reference = getattr(part, field, "") or ""
+            if reference and not reference.startswith("::") and reference.partition("::")[0] not in scope.members:
+                yield element, f"{reference} begins outside of its module"
+
+
+def _uncertain_values(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
+    if not _LITERAL.fullmatch(constant.value) or scope.find(constant.value, c.Constant):
+        yield constant, f"{constant.value} is no literal"
+
+
+def _uncertain_index_types(element: Element, _: Scope) -> Iterator[Complaint]:
+    kind = getattr(element, "index_type", "") or "ULONG"
+    if kind not in ("BYTE", "UBYTE", "SHORT", "USHORT", "LONG", "ULONG", "LONGLONG", "ULONGLONG"):
+        yield element, f"{kind} is no kind of integers"
+
+
+@variant(
+    declares=(
+        "comment-elements=xml",
+        "declarations-elsewhere=refused",
+        "index-types=kinds",
+        "relative-names=own-module",
+        "value-syntax=literals",
+    )
+)
+def reads_only_what_is_certain(program: Program) -> Program:
+    """Refuses comments that are elements, names that begin outside of their module, expressions and names of index types."""
+    rules = (
+        Rule("certain_names", "", _DECLARATIONS, _uncertain_names),
+        Rule("certain_values", "", (c.Constant,), _uncertain_values),
+        Rule("certain_index_types", "", (c.Enumeration, c.Sequence, c.ArrayDimension), _uncertain_index_types),
+    )
+    program = replace(program, rules={**program.rules, **{rule.name: rule for rule in rules}})
+    return refusing_text(program, rb"<SimpleComment")

@@ -47,6 +47,13 @@ def standard_declarations_in_a_module(program: Program) -> Program:
     return rw.rewritten(program, rewrite)
 
 
+@variant(task="idl", declares=("idl-standard-files=elsewhere",))
+@rw.rewriting
+def standard_files_elsewhere(files: rw.Files) -> rw.Files:
+    """The file with what clause 12 prints comes with the framework and is not generated."""
+    return {rw.MODEL: files[rw.MODEL]}
+
+
 @variant(task="idl")
 @rw.rewriting
 def local_interfaces(files: rw.Files) -> rw.Files:
