@@ -22,8 +22,7 @@ from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.repeating import repeated, steady_search
-from ucm_cts.harness.exploring.exploration import DRAWN, KNOWN, Exploration
-from ucm_cts.harness.exploring.memory import Memory, open_databases
+from ucm_cts.harness.exploring.in_runs import DRAWN_SCENARIOS, exploration_in, remember_in
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -36,9 +35,6 @@ from ucm_cts.harness.results.tally import ended_early, of_selection
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import check_subject, stated_by
-
-EXAMPLES = "examples"
-"""The folder, within that of the report, of failures that drawn scenarios showed."""
 
 KEPT_EVERY = 60
 """After so many seconds, what a run has measured is kept again."""
@@ -96,7 +92,9 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
         if wanted.expression:
             report = of_selection(report, wanted.expression, asked_by(purposes, wanted.expression))
         saved = keep_report(report, folder, () if report.incomplete else CHECKPOINTS)
-        series.remember(report)
+        problem = remember_in(wanted.out, report)
+        if problem:
+            console.say(problem)
         leave_with(console, report, saved, known, wanted.everything)
 
 
@@ -238,9 +236,7 @@ class _Series:
 
         All runs of a series draw the same scenarios, as far as the framework does the same.
         """
-        kept = self._wanted.out / EXAMPLES
-        memory = self._memory(campaign.report()) if kept.is_dir() and not kept.is_symlink() else None
-        exploration = Exploration(campaign, self._seed, memory, may_wait=True)
+        exploration = exploration_in(self._wanted.out, campaign, self._seed)
         known = exploration.replay()
         began, failures, far = time.monotonic(), 0, 0
         for progress in exploration.explore():
@@ -249,23 +245,9 @@ class _Series:
                 raise KeyboardInterrupt
             if self._explore.spent(far, time.monotonic() - began) >= self._explore.amount:
                 break
-        campaign.count("scenarios drawn at random", far)
+        campaign.count(DRAWN_SCENARIOS, far)
         self._explore = Budget(far, is_time=False)
         return max(failures, sum(one.fate == "still there" for one in known))
-
-    def remember(self, report: FrameworkReport) -> None:
-        """Keep the failures that drawn scenarios showed: the next run into the same folder tries them again."""
-        named = (DRAWN, KNOWN)
-        shown_by = [found.execution for result in report.requirements for found in result.findings]
-        shown_by += [item.execution for item in report.incidents]
-        if any(execution is not None and execution.name.startswith(named) for execution in shown_by):
-            try:
-                self._memory(report).remember_all(report, named)
-            except (OSError, WrongUse) as error:
-                self._console.say(f"failures of drawn scenarios are not kept for the next run: {error}")
-
-    def _memory(self, report: FrameworkReport) -> Memory:
-        return Memory(open_databases([str(self._wanted.out / EXAMPLES)]), report.product, report.profile)
 
 
 class _Misfit(WrongUse):

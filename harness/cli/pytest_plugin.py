@@ -30,6 +30,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="SECONDS",
         help="how long crashes and hangs may take (default: 60)",
     )
+    group.addoption(
+        "--iut-explore",
+        default="3s",
+        metavar="BUDGET",
+        help="how long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s (default: 3s)",
+    )
     group.addoption("--iut-in-process", action="store_true", help="no host process: for debuggers and sanitizers")
 
 

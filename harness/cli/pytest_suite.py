@@ -6,17 +6,21 @@ The host and the verdicts live as long as the session; each node runs its purpos
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import cast
 
+import click
 import pytest
 
 from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.requirements import decides, load_requirements
+from ucm_cts.harness.cli.options import Budget, DrawnScenarios
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.exploring.in_runs import DRAWN_SCENARIOS, exploration_in, remember_in
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -38,7 +42,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
     For ``-k``, a clause can be written with underscores, too: ``-k 10_1_6``.
     """
-    if metafunc.module.__name__ != _SUITE:
+    if metafunc.module.__name__ != _SUITE or "purpose" not in metafunc.fixturenames:
         return
     purposes = purposes_for(statement_of(metafunc.config), metafunc.config.getoption("--iut-profile"))
     metafunc.parametrize("purpose", purposes, ids=[f"{p.clause}-{p.id}".replace(" ", "-") for p in purposes])
@@ -46,9 +50,25 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 def pytest_itemcollected(item: pytest.Item) -> None:
     """Let ``-k`` find the clause of a node under its name with underscores."""
-    if isinstance(item, pytest.Function) and item.module.__name__ == _SUITE:
+    if isinstance(item, pytest.Function) and item.module.__name__ == _SUITE and "purpose" in item.fixturenames:
         purpose = cast(TestPurpose, item.callspec.params["purpose"])
         item.extra_keyword_matches.add(purpose.clause.replace(".", "_"))
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Without a budget no scenarios are drawn."""
+    drawn = [item for item in items if isinstance(item, pytest.Function) and "check_drawn" in item.fixturenames]
+    if drawn and not budget_of(config).amount:
+        config.hook.pytest_deselected(items=drawn)
+        items[:] = [item for item in items if item not in drawn]
+
+
+def budget_of(config: pytest.Config) -> Budget:
+    """What drawing scenarios may cost. Raises ``pytest.UsageError``."""
+    try:
+        return DrawnScenarios(or_none=True).convert(config.getoption("--iut-explore"), None, None)
+    except click.BadParameter as error:
+        raise pytest.UsageError(f"--iut-explore: {error.message}") from None
 
 
 def statement_of(config: pytest.Config) -> Statement:
@@ -103,6 +123,8 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
         config.stash[_ADVICE] = [f"{r.id}: {r.title}" for r in not_followed(report.requirements)]
         if folder is not None:
             saved = keep_report(report, folder)
+            forgotten = remember_in(Path(out), report)
+            config.stash[_UNDECIDED] += [forgotten] if forgotten else []
             if saved.problem:
                 where = f"it is in '{saved.place}'" if saved.place is not None else "no folder took it"
                 config.stash[_UNDECIDED].append(f"the report cannot be written: {saved.problem}; {where}")
@@ -170,20 +192,44 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
 @pytest.fixture
 def check(campaign: Campaign) -> object:
     """Run a purpose and fail with what was expected and what was observed. Recommendations fail nothing."""
-    advice = {r.id for r in load_requirements() if not decides(r.level)}
 
     def run(purpose: TestPurpose) -> None:
         for checked in campaign.check([purpose]):
-            failures = [(f, execution) for f, execution in checked.failures if f is None or f.requirement not in advice]
-            reasons = [waiver_for(f, campaign.known) if f is not None else "" for f, _ in failures]
-            if reasons and all(reasons):
-                pytest.xfail("; ".join(sorted(set(reasons))))
-            stories = [_story(finding, execution) for finding, execution in failures[:3]]
-            if stories:
-                more = len(failures) - len(stories)
-                pytest.fail("\n\n".join(stories) + (f"\n\nand {more} more" if more > 0 else ""), pytrace=False)
+            _fail_with(checked.failures, campaign)
 
     return run
+
+
+@pytest.fixture
+def check_drawn(campaign: Campaign, request: pytest.FixtureRequest) -> object:
+    """Draw and run scenarios, and fail with one of each cause."""
+
+    def run() -> None:
+        out, budget = request.config.getoption("--iut-out"), budget_of(request.config)
+        exploration = exploration_in(Path(out) if out else None, campaign, campaign.report().seed)
+        exploration.replay()
+        began, drawn = time.monotonic(), 0
+        for progress in exploration.explore():
+            drawn = progress.scenarios
+            if budget.spent(drawn, time.monotonic() - began) >= budget.amount:
+                break
+        campaign.count(DRAWN_SCENARIOS, drawn)
+        _fail_with(exploration.failures, campaign)
+
+    return run
+
+
+def _fail_with(shown: Sequence[tuple[Finding | None, Execution]], campaign: Campaign) -> None:
+    """Fail, unless all that was ``shown`` is a recommendation or known."""
+    advice = {r.id for r in load_requirements() if not decides(r.level)}
+    failures = [(f, execution) for f, execution in shown if f is None or f.requirement not in advice]
+    reasons = [waiver_for(f, campaign.known) if f is not None else "" for f, _ in failures]
+    if reasons and all(reasons):
+        pytest.xfail("; ".join(sorted(set(reasons))))
+    stories = [_story(finding, execution) for finding, execution in failures[:3]]
+    if stories:
+        more = len(failures) - len(stories)
+        pytest.fail("\n\n".join(stories) + (f"\n\nand {more} more" if more > 0 else ""), pytrace=False)
 
 
 def _story(finding: Finding | None, execution: Execution) -> str:

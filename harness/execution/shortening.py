@@ -16,6 +16,9 @@ from ucm_cts.harness.results.values import Execution, IncidentKind
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
 
+_SHORTENED = ", shortened"
+"""The names of shortened scenarios end so; they begin with the name of the one that failed."""
+
 _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 """Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
 
@@ -74,8 +77,9 @@ class Shortening:
         Those that may end the host are run one by one, no more than needed, and none after ``until``.
         """
         first: tuple[int, Finding, Execution] | None = None
-        cases = [(f"{cause[0]}-shortest", c) for c in candidates]
         known = self._tally.failures[cause].execution
+        name = f"{known.name.removesuffix(_SHORTENED) if known is not None else cause[0]}{_SHORTENED}"
+        cases = [(name, c) for c in candidates]
         alone = known is not None and known.incident is not None
         answers = self._one_by_one(cases, until) if alone else self._driver.run(cases)
         for index, answer in enumerate(answers):

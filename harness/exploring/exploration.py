@@ -28,7 +28,9 @@ from ucm_cts.harness.results.incident_causes import IncidentCause, cause_of_inci
 from ucm_cts.harness.results.incidents import is_waiting
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Cause, cause_of
+from ucm_cts.harness.results.values import Execution
 from ucm_cts.harness.statement.applicability import fitting, with_policies
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.verdicts import Verdicts
 
 DRAWN = "explored"
@@ -100,9 +102,9 @@ class Exploration:
         self._events = Events()
         self._rows: set[str] = set()
         self._new: list[tuple[int, Scenario]] = []
-        self._causes: set[Cause] = set()
+        self._causes: dict[Cause, tuple[Finding, Execution]] = {}
         self._incidents: set[IncidentCause] = set()
-        self._unexplained: set[IncidentCause] = set()
+        self._unexplained: dict[IncidentCause, tuple[None, Execution]] = {}
         self._run = 0
 
     def replay(self) -> list[Replayed]:
@@ -139,17 +141,22 @@ class Exploration:
             if in_vain >= IN_VAIN or "unreachable" in kinds:
                 return
 
+    @property
+    def failures(self) -> list[tuple[Finding | None, Execution]]:
+        """The first failure of each cause so far, remembered ones included; of an incident that explains none, no finding."""
+        return [*self._causes.values(), *self._unexplained.values()]
+
     def _check(self, purposes: Iterator[TestPurpose]) -> Iterator[Checked]:
         for checked in self._campaign.check(purposes, self._watch):
             self._campaign.checked.pop()  # an exploration has no end
             for finding, execution in checked.failures:
                 if finding is not None:
-                    self._causes.add(cause_of(finding))
+                    self._causes.setdefault(cause_of(finding), (finding, execution))
                 incident = execution.incident
                 if incident is not None and incident.kind != "untried" and not is_waiting(execution):
                     self._incidents.add(cause_of_incident(execution))
                     if finding is None:
-                        self._unexplained.add(cause_of_incident(execution))
+                        self._unexplained.setdefault(cause_of_incident(execution), (None, execution))
             yield checked
 
     def _purposes(self) -> Iterator[TestPurpose]:

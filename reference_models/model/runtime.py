@@ -264,6 +264,7 @@ class Runtime:
     ``in_vain``: gates that were waited for until patience ran out; ``opened``: those that were opened without that.
     ``inside``: the bodies in which each thread carries out business methods or run, the innermost last.
     ``not_offered``: operations that the adapter does not offer.
+    ``shows_missing``: a start refused, or left out, what was never connected; so a reference that it gives is one of a connection.
     ``behind``: what executions.behind has found since anything ``changed``; ``changes``: how often that was so.
     """
 
@@ -287,6 +288,7 @@ class Runtime:
         self.ports: dict[str, str] = {}
         self.destroyed = False
         self.shares_ids = False
+        self.shows_missing = False
         self.replaces_servers = False
         self.changes = 0
         self.behind: dict[tuple[tuple[str, int], str], Behind] = {}

@@ -22,6 +22,8 @@ def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Star
     reached = [m for m in everywhere if ongoing.received(m, "on_startup")]
     own = [m for m in reached if m.container is container]
     _reached_unseen(runtime, container)
+    if not runtime.shows_missing and not runtime.with_policies:
+        runtime.shows_missing = _shows_missing(ongoing, own, returned)
     if not returned:
         failing = any(m.raises("on_startup") for m in container.live_members())
         half_way = any(not ongoing.received(m, "on_shutdown") for m in own)
@@ -50,6 +52,24 @@ def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Star
         if member.container is not container:
             member.container.started = True
     container.started = True
+
+
+def _shows_missing(ongoing: OperationInProgress, reached: list[Member], returned: bool) -> bool:
+    """Was a start refused because of a port element that was never connected, or was nothing handed over for it?"""
+    if not returned:
+        members = ongoing.container.live_members() if ongoing.container.started is False else []
+        unclear = any(m.suspended or m.raises("on_startup") for m in members)
+        return not unclear and any(_never_connected(m) for m in members)
+    return any(
+        not handed_over(callback).get(port)
+        for member in reached
+        for port in _never_connected(member)
+        for callback in ongoing.received(member, "on_startup")
+    )
+
+
+def _never_connected(member: Member) -> set[str]:
+    return set(member.declaration.requires) - {connection.port for connection in member.connections}
 
 
 def take_over_stop(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: Result) -> None:

@@ -7,7 +7,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, lane
+from ucm_cts.reference_models.model.runtime import Connection, Member, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
 from ucm_cts.reference_models.model.start_effects import handed_over
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -86,6 +86,18 @@ def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: C
         return
     given = handed_over(event)
     for port, references in given.items():
+        over = _all_over(runtime, member, port, references)
+        if over:
+            removed = next((c.provider for c in over if c.provider is not None and c.provider.gone), None)
+            why = f"{removed.lane} was removed" if removed is not None else f"{over[0].name} was disconnected"
+            yield check.fail(
+                "removed provider" if removed is not None else "undone connection",
+                expected=f"{why}, so nothing is handed over for {port}, as before it was connected",
+                observed=f"on_startup handed over {_show(references[0])} for {port}",
+                during=(ongoing, event),
+                requirement=_DANGLING if removed is not None else "",
+            )
+            return
         for reference in references:
             provider = runtime.provider_of(reference)
             stale = any(c.stale and c.provider is provider for c in member.connections)
@@ -111,6 +123,20 @@ def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: C
         yield check.kept(_DANGLING)
     if any(c.live is False and c.provider is not None and not c.provider.gone for c in member.connections):
         yield check.kept()
+
+
+def _all_over(
+    runtime: ObservedRuntime, member: Member, port: str, references: list[MaybeReference]
+) -> list[Connection]:
+    """The connections of ``port``, if none of them stands and only proxies are handed over for it, which do not show what is behind them;
+    nothing if a start may give proxies of nothing, too.
+    """
+    if not runtime.shows_missing or any(isinstance(reference, Reference) for reference in references):
+        return []
+    connections = [c for c in member.connections if c.port == port] if references else []
+    removed = [c for c in connections if c.provider is not None and c.provider.gone and not c.stale]
+    undone = [c for c in connections if c.live is False and not member.suspended]
+    return connections if all(c in removed or c in undone for c in connections) else []
 
 
 def _expected(member: Member) -> str:

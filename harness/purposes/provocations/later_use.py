@@ -32,15 +32,35 @@ _COMPONENTS = {
         plan={"exchange": (s.CallPort("out.api", 5),)},
     ),
 }
-_SET_UP: tuple[Step, ...] = (
+_ADDED: tuple[Step, ...] = (
     *(s.AddComponent(name) for name in _COMPONENTS),
     *(s.GetPortElement(name, "in.api", f"to {name}") for name in _COMPONENTS),
+)
+_CONNECTED: tuple[Step, ...] = (
     s.Connect("client", "out.api", "to server", "link"),
     s.Connect("bystander", "out.api", "to anchor", "own link"),
     s.Start(),
     s.Invoke("to client", 1),
     s.Stop(),
 )
+_SET_UP = (*_ADDED, *_CONNECTED)
+_SET_UP_ACROSS: tuple[Step, ...] = (
+    s.CreateContainer(_BOX),
+    s.AddComponent("server", _BOX),
+    s.GetPortElement("server", "in.api", "to server", _BOX),
+    s.Start(_BOX),
+    *(step for step in _ADDED if "server" not in (getattr(step, "component", ""), getattr(step, "id", ""))),
+    s.Start(),
+    s.Stop(),
+    *_CONNECTED,
+)
+
+
+class Across(Value, frozen=True):
+    """What happens in the meantime, by its name, where the server is in a container of its own, and the ``uses`` that follow."""
+
+    since: dict[str, tuple[Step, ...]]
+    uses: tuple[str, ...]
 
 
 class LaterUse(Value, frozen=True):
@@ -48,30 +68,40 @@ class LaterUse(Value, frozen=True):
 
     ``since``: what happens in the meantime, by its name.
     ``uses``: how something is used then, by its name.
+    ``across``: the same with a server in another container than its client.
     """
 
     since: dict[str, tuple[Step, ...]]
     uses: dict[str, tuple[Step, ...]]
+    across: Across
 
 
 def later_use_purposes() -> list[TestPurpose]:
     """One purpose for each thing that happens in the meantime."""
     dimensions = read(SUITE / "later_use.yaml", LaterUse)
-    return [
-        TestPurpose(
-            f"later use/{name}",
-            "12.10",
-            f"What was given out is used after {name}.",
-            _REQUIREMENTS,
-            tuple(
-                (f"later use/{name}/{use} in the {home}", _scenario(home, (*since, *steps)))
+    within = [
+        _purpose(
+            name,
+            [
+                (f"{use} in the {home}", _scenario(home, (*since, *steps)))
                 for use, steps in dimensions.uses.items()
                 for home in (s.MANAGER, _BOX)
                 if (home == _BOX or not _needs_box((*since, *steps))) and _has_all((*since, *steps))
-            ),
+            ],
         )
         for name, since in dimensions.since.items()
     ]
+    across = [
+        _purpose(name, [(use, _scenario_across((*since, *dimensions.uses[use]))) for use in dimensions.across.uses])
+        for name, since in dimensions.across.since.items()
+    ]
+    return [*within, *across]
+
+
+def _purpose(name: str, scenarios: list[tuple[str, Scenario]]) -> TestPurpose:
+    text = f"What was given out is used after {name}."
+    named = tuple((f"later use/{name}/{use}", scenario) for use, scenario in scenarios)
+    return TestPurpose(f"later use/{name}", "12.10", text, _REQUIREMENTS, named)
 
 
 def _needs_box(steps: tuple[Step, ...]) -> bool:
@@ -90,6 +120,11 @@ def _scenario(home: str, steps: tuple[Step, ...]) -> Scenario:
     return Scenario(
         _COMPONENTS, possible((*created, *(_within(home, step) for step in (*_SET_UP, *steps))), _COMPONENTS)
     )
+
+
+def _scenario_across(steps: tuple[Step, ...]) -> Scenario:
+    """The application with its server in a container of its own, and the steps."""
+    return Scenario(_COMPONENTS, possible((*_SET_UP_ACROSS, *steps), _COMPONENTS))
 
 
 def _within(home: str, step: Step) -> Step:

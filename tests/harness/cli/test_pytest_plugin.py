@@ -29,6 +29,7 @@ pytestmark = pytest.mark.slow
 
 PURPOSES = {purpose.id.replace(" ", "-"): purpose for purpose in load_purposes("container")}
 SUBJECT, REQUIREMENT = "stops_in_startup_order", "R-11.2.2.1-13"
+DRAWN = "test_drawn_scenarios"
 NODE = re.compile(r"test_clause\[([\d.]+)-(.*)\]")
 HEAD = re.compile(r"^(R-\S+): expected \S.*; observed \S.*$", re.MULTILINE)
 OTHERS = """
@@ -97,8 +98,8 @@ def run_pytest(*arguments: str) -> Session:
     return Session(done.returncode, done.stdout + done.stderr, nodes)
 
 
-def suite(*arguments: str) -> Session:
-    return run_pytest("--pyargs", "ucm_cts.suite", *arguments)
+def suite(*arguments: str, explore: str = "0s") -> Session:
+    return run_pytest("--pyargs", "ucm_cts.suite", "--iut-explore", explore, *arguments)
 
 
 def broken(adapter: type[Adapter]) -> set[str]:
@@ -137,7 +138,8 @@ def wrong(tmp_path_factory: pytest.TempPathFactory) -> tuple[Session, Path]:
 
 def test_each_purpose_is_one_node() -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--pyargs", "ucm_cts.suite", "--collect-only", "-q"],
+        [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--pyargs", "ucm_cts.suite",
+         "--iut-explore", "0s", "--collect-only", "-q"],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     nodes = [NODE.fullmatch(line.partition("::")[2]) for line in done.stdout.splitlines() if "::" in line]
@@ -227,6 +229,21 @@ def test_report_is_that_of_the_command_line(wrong: tuple[Session, Path]) -> None
     assert result["id"] == REQUIREMENT
     saved: dict[str, Any] = json.loads((out / result["findings"][0]["replay"]).read_text())
     assert len(saved["steps"]) == 4, "two members, start, stop"
+
+
+def test_scenarios_are_drawn_in_a_node_of_their_own_and_their_failures_are_remembered(here: Path) -> None:
+    arguments = "-k", "drawn or whole-life", "--iut-seed", "1", "--iut-out", "out"
+    session = suite("--iut", "reference-py", *arguments, explore="20scenarios")
+    assert (session.status, session.failed) == (0, {})
+    assert DRAWN in session.nodes
+    assert report_of(here / "out")["measures"]["scenarios drawn at random"] == 20
+    session = suite("--iut", f"subjects:{SUBJECT}", *arguments, explore="100scenarios")
+    assert (session.status, set(session.failed)) == (1, {DRAWN})
+    assert set(HEAD.findall(session.failed[DRAWN])) == {REQUIREMENT}
+    session = suite("--iut", f"subjects:{SUBJECT}", *arguments, explore="1scenarios")
+    assert set(session.failed) == {DRAWN}, "it is tried again"
+    session = suite("--iut", "reference-py", "-k", "drawn", explore="often")
+    assert (session.status, "'often' is no budget" in session.out) == (4, True)
 
 
 def test_inconclusive_is_not_green(here: Path) -> None:

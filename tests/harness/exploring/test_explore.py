@@ -24,6 +24,7 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.campaign import WAITED, Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.exploration import IN_VAIN, Exploration
+from ucm_cts.harness.exploring.in_runs import exploration_in, remember_in
 from ucm_cts.harness.exploring.memory import Memory
 from ucm_cts.harness.exploring.printing import found_text
 from ucm_cts.harness.hosting.locate import locate
@@ -188,6 +189,21 @@ def test_what_a_run_has_drawn_is_tried_again_by_the_next_one(found: Path) -> Non
     assert before
     assert ucm_cts("run", MENDED, *arguments).status == 0
     assert remembered_files(Path("out/examples")) == []
+
+
+def test_what_only_a_drawn_scenario_shows_is_remembered_when_it_has_been_shortened(tmp_path: Path) -> None:
+    with Driver(locate(SUBJECT), 1) as driver:
+        campaign = Campaign(driver, "container")
+        exploration = exploration_in(tmp_path, campaign, 1)
+        for far in exploration.explore():
+            if far.failures:
+                break
+        failures = exploration.failures
+        assert {finding.requirement for finding, _ in failures if finding is not None} == {REQUIREMENT}
+        assert list(campaign.shorten())
+        report = campaign.report()
+    assert remember_in(tmp_path, report) == ""
+    assert len(remembered_files(tmp_path / "examples")) == 1
 
 
 def test_a_call_that_waits_for_a_start_is_no_incident_of_a_run() -> None:

@@ -9,7 +9,15 @@ from ucm_cts.adapters.contract.programming_model import (
     UcmError,
 )
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks, is_below
+from ucm_cts.adapters.mutants.python.registry import (
+    Base,
+    GivesOutProxies,
+    HandsOverProxies,
+    PeerProxy,
+    Proxy,
+    breaks,
+    is_below,
+)
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member
 
@@ -232,6 +240,57 @@ class reconnects_to_the_predecessor(Base):
         first = member.__dict__.setdefault(f"first target of {port}", target)
         self.manager.connections[identifier] = Connection(identifier, member, port, first)
         return identifier
+
+
+# proxies of what is gone
+
+
+class _OfNothing(PeerProxy):
+    """Leads to what was removed, or was undone: calls are refused."""
+
+    def exchange(self, value: int) -> int:
+        raise UcmError("there is nothing behind it")
+
+
+class _HandsOverProxies(HandsOverProxies):
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        given += [PortConnection(port, (_OfNothing(target, member),)) for port, target in self._lost(member).items()]
+        return given
+
+    def _check_startable(self) -> None:
+        for member in self.members.values():
+            lost = self._lost(member)
+            for port in member.implementation.requires:
+                if port not in lost and not self._is_connected(member, port):
+                    raise UcmError(f"{port!r} of component {member.id} is not connected")
+
+    def _lost(self, member: Member) -> dict[str, PortElementObject]:
+        """What is still handed over although its connection has gone, by port."""
+        lost = member.__dict__.get("lost", {})
+        return {port: target for port, target in lost.items() if not self._is_connected(member, port)}
+
+
+@breaks("R-11.2.3-14")
+class proxies_outlive_the_container_behind_them(_HandsOverProxies):
+    """Components are given proxies; those that lead to a container which has been removed are handed over again, and refuse calls."""
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        super()._disconnect(connection, failures)
+        if is_below(self) and connection.client.container is not self:
+            connection.client.__dict__.setdefault("lost", {})[connection.port] = connection.target
+
+
+@breaks("R-11.2.2.1-10")
+class proxies_outlive_connections_across(_HandsOverProxies):
+    """Components are given proxies; one of a connection to another container is handed over after that was undone, too."""
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        super().disconnect(connection)
+        own = [self._reference_to(m, port) for m in self.members.values() for port in m.implementation.provides]
+        if found is not None and not any(found.target is element for element in own):
+            found.client.__dict__.setdefault("lost", {})[found.port] = found.target
 
 
 # references
