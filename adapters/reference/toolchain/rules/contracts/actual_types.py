@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.contract.metamodel.contracts import AbstractDataType, Alias, DataType
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    AbstractDataType,
+    Alias,
+    Array,
+    Constant,
+    DataType,
+    Sequence,
+    StructureField,
+    UnionCase,
+)
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 
 DATA_TYPES = (DataType, AbstractDataType)
 """What may stand where a data type is asked for (9.2.2.2)."""
+
+TypedInContracts = StructureField | UnionCase | Alias | Array | Sequence | Constant
+"""The parts of data types and constants that refer to a data type."""
 
 
 def actual_type(reference: str, scope: Scope) -> Declared | None:

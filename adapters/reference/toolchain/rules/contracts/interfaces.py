@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import get_args
 
 from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
+from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import TypedInContracts
 
 _DATA_TYPES = (c.DataType, c.AbstractDataType)
 
@@ -119,20 +121,8 @@ def raises_exceptions(method: c.Method, scope: Scope) -> Iterator[Complaint]:
             yield raised, f"method {method.name} raises '{raised.exception}', which is no exception; declare it"
 
 
-Typed = c.StructureField | c.UnionCase | c.Alias | c.Array | c.Sequence | c.Constant
-
-
-@rule(
-    "R-9.2.8-03",
-    c.StructureField,
-    c.UnionCase,
-    c.Alias,
-    c.Array,
-    c.Sequence,
-    c.Constant,
-    under="abstract-types-elsewhere=refused",
-)
-def abstract_types_serve_interfaces_only(typed: Typed, scope: Scope) -> Iterable[Complaint]:
+@rule("R-9.2.8-03", *get_args(TypedInContracts), under="abstract-types-elsewhere=refused")
+def abstract_types_serve_interfaces_only(typed: TypedInContracts, scope: Scope) -> Iterable[Complaint]:
     """Nothing would ever bind an abstract type inside another type or a constant."""
     found = scope.find_one_of(typed.type, _DATA_TYPES)
     if found is None or not isinstance(found.element, c.AbstractDataType):

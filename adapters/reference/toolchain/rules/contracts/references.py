@@ -3,34 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import get_args
 
 from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Named
 from ucm_cts.adapters.contract.metamodel.interactions import ItemBinding
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import DATA_TYPES, actual_type
+from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import DATA_TYPES, TypedInContracts, actual_type
 
-Typed = (
-    c.StructureField
-    | c.UnionCase
-    | c.Alias
-    | c.Array
-    | c.Sequence
-    | c.Constant
-    | c.ExceptionField
-    | c.ConfigurationParameter
-)
-TYPED = (
-    c.StructureField,
-    c.UnionCase,
-    c.Alias,
-    c.Array,
-    c.Sequence,
-    c.Constant,
-    c.ExceptionField,
-    c.ConfigurationParameter,
-)
+Typed = TypedInContracts | c.ExceptionField | c.ConfigurationParameter
+TYPED = get_args(Typed)
 """What refers to a data type (9.2.2.4)."""
 
 OF_ONE_CLASS = ("R-9.2.4.2-01", "R-9.2.4.4-01", "R-9.2.4.6-01", "R-9.2.4.9-01", "R-9.2.5.4-01")
