@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final, Literal
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import MANAGER, Step
+from ucm_cts.adapters.contract.scenario import MANAGER, Scenario, Step
 
 SERVICE: Final = s.SERVICE_CONNECTOR
 MESSAGE: Final = s.MESSAGE_CONNECTOR
@@ -27,3 +28,11 @@ def provided_end(connector: str, link: str, component: str, port: str = "in.api"
 def required_end(connector: str, link: str, component: str, port: str = "out.api", container: str = MANAGER) -> Step:
     """Makes required ``port`` of ``component`` an end of ``link``."""
     return s.Attach(link, REQUIRER[connector], component, port, container)
+
+
+def required_ends(scenario: Scenario) -> Iterator[tuple[str, str, str]]:
+    """The required port elements that ``scenario`` attaches: the variable of the component, the port element, the connector."""
+    connectors = {step.bind: step.connector for step in scenario.steps if isinstance(step, s.Link)}
+    for step in scenario.steps:
+        if isinstance(step, s.Attach) and step.role in REQUIRER.values() and step.link in connectors:
+            yield step.id, step.port, connectors[step.link]

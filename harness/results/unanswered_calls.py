@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.purposes.connections import required_ends
 from ucm_cts.harness.results.values import Execution, Incident
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.executions import call_guarantees
-from ucm_cts.reference_models.model.links import SENDERS
 from ucm_cts.reference_models.model.runtime import lane
 
 _BETWEEN_COMPONENTS = ("R-11.2.3-03", "interactions")
@@ -216,11 +216,9 @@ def _requirement(
 ) -> tuple[str, str]:
     """The requirement of the connector or execution policy that the call goes through, with its property."""
     if isinstance(call, t.Request):
-        connectors = {step.bind: step.connector for step in scenario.steps if isinstance(step, s.Link)}
-        attached = [step for step in scenario.steps if isinstance(step, s.Attach) and step.role in SENDERS]
-        for step in attached:
-            if (_component(scenario, step.id), step.port) == (call.component, port) and step.link in connectors:
-                return _BY_CONNECTOR[connectors[step.link]]
+        for variable, port_element, connector in required_ends(scenario):
+            if (_component(scenario, variable), port_element) == (call.component, port):
+                return _BY_CONNECTOR[connector]
     declaration = scenario.components.get(callee[0]) if callee is not None else None
     promised = call_guarantees(declaration, callee[1]) if declaration is not None and callee is not None else ()
     return (promised[0], "calls_carried_out") if promised else _BETWEEN_COMPONENTS

@@ -92,6 +92,11 @@ class Interactions:
             for end in link.live(*SENDERS)
         )
 
+    def has_refused(self, link: LinkState, role: str) -> bool:
+        """Was an end of ``role`` refused?"""
+        refused = (o.step for o in self.operations if isinstance(o.end, t.Raise))
+        return any(isinstance(a, s.Attach) and (a.link, a.role) == (link.name, role) for a in refused)
+
     @property
     def is_joining(self) -> bool:
         """Is a port element just being attached to a connector, or detached?"""

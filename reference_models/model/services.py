@@ -189,8 +189,7 @@ def what_sets_apart(
     """
     if one.is_inherited:
         return "inherited"
-    refused = [o.step for o in runtime.interactions.operations if isinstance(o.end, Raise)]
-    if any(isinstance(a, s.Attach) and (a.role, a.link) == ("server", one.link.name) for a in refused):
+    if runtime.interactions.has_refused(one.link, "server"):
         return "second server"
     others = any(other.link is one.link and other.client is not one.client for other in served)
     return "client" if others else ""
