@@ -1,4 +1,4 @@
-"""Channels to hosts: processes forked by a template, and connections. ``host_watch`` watches them."""
+"""Channels to hosts, and the hosts that a template forks as processes. ``host_watch`` watches them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import select
 import signal
 import socket
 import subprocess
-import sys
 import tempfile
 import time
 from collections import Counter
@@ -19,7 +18,7 @@ from typing import Protocol
 import psutil
 
 from ucm_cts.adapters.sdk.python.template import NO_CONTROL
-from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
+from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.hosting.process_tree import MARK, below, end_marked, is_child_of, is_stopped, new_mark
 from ucm_cts.harness.results.foreign import clean, one_line
 from ucm_cts.harness.results.values import Incident, IncidentKind
@@ -27,11 +26,11 @@ from ucm_cts.harness.results.values import Incident, IncidentKind
 START_SECONDS = 60.0
 """How long an adapter may take to be loaded."""
 
-_RETRY_SECONDS = 1.0
 _GLANCE_SECONDS = 0.2
 _LONGEST_LINE = 1 << 16
 _CONTROL_CHANNEL = "the control channel of its host; an adapter leaves descriptors alone that it has not opened"
 _FAREWELL_SECONDS = 0.5
+_KILLED_SECONDS = 1.0
 _LOG_TAIL = 1 << 16
 _LAST_LINES = 20
 
@@ -89,14 +88,6 @@ class Opener(Protocol):
 
     def close(self) -> None:
         """End all hosts and the process that forks them."""
-
-
-def opener(endpoint: Endpoint) -> Opener:
-    """The opener of ``endpoint``, which is not an in-process one."""
-    if endpoint.kind in ("tcp", "unix"):
-        return Connector(endpoint)
-    module = "ucm_cts.adapters.sdk.python.host" if endpoint.kind == "python" else "ucm_cts.harness.hosting.spawner"
-    return TemplateProcess([sys.executable, "-X", "faulthandler", "-m", module, endpoint.target], endpoint.text)
 
 
 class ControlBroken(OSError):
@@ -380,76 +371,9 @@ class HostProcess:
         try:
             if not orderly or self.status(_FAREWELL_SECONDS) is None:
                 self.signal(signal.SIGKILL)
-                self.status(_RETRY_SECONDS)
+                self.status(_KILLED_SECONDS)
         finally:
             self._template.forget(self._pid)
             os.close(self.source)
             if self.error is not None:
                 os.close(self.error)
-
-
-class Connector:
-    """Connects to a host that runs already; retries for a moment, because a replaced host may still be ending."""
-
-    def __init__(self, endpoint: Endpoint) -> None:
-        self.file = ""
-        self.left_behind: Counter[str] = Counter()
-        self._endpoint = endpoint
-
-    def open(self, seconds: float) -> Channel:
-        deadline = time.monotonic() + _RETRY_SECONDS
-        while True:
-            try:
-                return Connection(self._connect())
-            except OSError as error:
-                if time.monotonic() > deadline:
-                    detail = f"no adapter answers at {self._endpoint.text}: {error.strerror or error}; is the adapter running?"
-                    raise HostUnavailable(Incident("unreachable", detail)) from error
-            time.sleep(0.05)
-
-    def close(self) -> None:
-        """Nothing to end: the host runs on."""
-
-    def _connect(self) -> socket.socket:
-        if self._endpoint.kind == "unix":
-            connection = socket.socket(socket.AF_UNIX)
-            try:
-                connection.connect(self._endpoint.target)
-            except OSError:
-                connection.close()
-                raise
-            return connection
-        host, _, port = self._endpoint.target.rpartition(":")
-        connection = socket.create_connection((host, int(port)), timeout=_RETRY_SECONDS)
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        return connection
-
-
-class Connection:
-    """A host at the other end of a socket: it can be disconnected, not killed."""
-
-    pid: int | None = None
-    error: int | None = None
-    notices: int | None = None
-
-    def __init__(self, connection: socket.socket) -> None:
-        connection.setblocking(False)
-        self._socket = connection
-        self.source = connection.fileno()
-        self.target = os.dup(self.source)
-        self._open = True
-
-    def processes(self) -> frozenset[psutil.Process]:
-        return frozenset()
-
-    def signal(self, number: int) -> None:
-        """A remote host gets no signals."""
-
-    def status(self, seconds: float) -> int | None:
-        return None
-
-    def close(self, orderly: bool) -> None:
-        if self._open:
-            self._open = False
-            os.close(self.target)
-            self._socket.close()

@@ -14,6 +14,7 @@ messages that were on their way to it are sent again to its successor.
 from __future__ import annotations
 
 import itertools
+import sys
 import time
 from collections import Counter, deque
 from collections.abc import Generator, Iterable
@@ -27,7 +28,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.contract.traits import duration
 from ucm_cts.adapters.sdk.python.loading import CannotLoad, file_of, load
-from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, opener
+from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, TemplateProcess
 from ucm_cts.harness.hosting.host_watch import (
     Deadline,
     Host,
@@ -38,6 +39,7 @@ from ucm_cts.harness.hosting.host_watch import (
     WatchedHost,
 )
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
+from ucm_cts.harness.hosting.remote_hosts import Connector
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Incident
 
@@ -211,7 +213,7 @@ class Hosts:
             except CannotLoad as error:
                 raise WrongUse(f"'{self._endpoint.text}': {error}") from error
         if self._opener is None:
-            self._opener = opener(self._endpoint)
+            self._opener = _opener(self._endpoint)
         channel = self._opener.open(max(self.limits.seconds, _FORK_SECONDS))
         self.file, self.left_behind = self._opener.file, self._opener.left_behind
         return WatchedHost(channel, self.limits)
@@ -309,3 +311,11 @@ def _explained(incident: Incident, endpoint: Endpoint) -> Incident:
     return msgspec.structs.replace(
         incident, detail=f"'{endpoint.text}' does not answer hello: {incident.kind}, {incident.detail}"
     )
+
+
+def _opener(endpoint: Endpoint) -> Opener:
+    """The opener of ``endpoint``, which is not an in-process one."""
+    if endpoint.kind in ("tcp", "unix"):
+        return Connector(endpoint)
+    module = "ucm_cts.adapters.sdk.python.host" if endpoint.kind == "python" else "ucm_cts.harness.hosting.spawner"
+    return TemplateProcess([sys.executable, "-X", "faulthandler", "-m", module, endpoint.target], endpoint.text)

@@ -56,7 +56,7 @@ MODULES = {
         "undemanding",
     ),
     "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states", "types"),
-    "execution": ("policies", "running"),
+    "execution": ("policies", "running", "support"),
     "container_services": ("clocks", "logs", "port_traces"),
     "data": ("composite_types", "simple_types"),
     "connectors": (
