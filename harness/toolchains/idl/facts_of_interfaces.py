@@ -162,8 +162,8 @@ def _holder(vendor: Vendor, path: exp.Path, otherwise: exp.Path) -> Hit:
 
 
 def _pattern(name: str) -> re.Pattern[str]:
-    """A getter's name, hyphens as ``_``; ``*`` is any part of a name."""
-    return re.compile(re.escape(spelled(name)).replace(r"\*", r"\w*"), re.IGNORECASE)
+    """A getter's name, hyphens as ``_``; ``*`` is any part of a name, not none."""
+    return re.compile(re.escape(spelled(name)).replace(r"\*", r"\w+"), re.IGNORECASE)
 
 
 def _allowed(vendor: Vendor, names: tuple[str, ...]) -> list[re.Pattern[str]]:

@@ -54,6 +54,36 @@ def standard_files_elsewhere(files: rw.Files) -> rw.Files:
     return {rw.MODEL: files[rw.MODEL]}
 
 
+def _without(files: rw.Files, file: str, *modules: str) -> rw.Files:
+    """``files`` without the outermost ``modules`` of ``file``."""
+    text = files[file]
+    for name in modules:
+        text = re.sub(rf"^module {name} \{{\n.*?^\}};\n", "", text, flags=re.MULTILINE | re.DOTALL)
+    return {**files, file: text}
+
+
+@variant(task="idl", declares=("standard-idl=model",))
+@rw.rewriting
+def standard_modules_of_the_models(files: rw.Files) -> rw.Files:
+    """Nothing of 12.11 is generated but what follows from the models of clause 10."""
+    return _without(files, rw.STANDARD, "standard_execution_policies", "standard_services", "timer_service")
+
+
+@variant(task="idl", declares=("standard-idl=printed",))
+@rw.rewriting
+def standard_modules_as_printed(files: rw.Files) -> rw.Files:
+    """Policies and services of 12.11 stand in place of what follows from their models; the timers follow from theirs."""
+    files = _without(files, rw.STANDARD, "timer_service")
+    return _without(files, rw.MODEL, "container_services", "component_execution_policies")
+
+
+@variant(task="idl", declares=("standard-idl=printed-with-timers",))
+@rw.rewriting
+def standard_modules_and_timers_as_printed(files: rw.Files) -> rw.Files:
+    """All that 12.11 prints stands in place of what follows from the models."""
+    return _without(files, rw.MODEL, "container_services", "component_execution_policies", "timer")
+
+
 @variant(task="idl")
 @rw.rewriting
 def local_interfaces(files: rw.Files) -> rw.Files:
