@@ -12,10 +12,14 @@ from typing import NamedTuple
 
 import pytest
 
+from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.mutants.toolchain.registry import Variant, variants
 from ucm_cts.adapters.reference.toolchain.program import reference
-from ucm_cts.harness.catalogue.requirements import load_interpretations, load_options
+from ucm_cts.harness.catalogue.requirements import (
+    load_interpretations,
+    load_options,
+)
 from ucm_cts.harness.selftest.consulted import consulted_for
 from ucm_cts.harness.selftest.toolchains import declaring
 from ucm_cts.harness.toolchains.campaign import ToolChainCampaign
@@ -78,9 +82,16 @@ def cases(profile: str) -> list[object]:
 
 
 def shown(case: False_) -> list[str]:
-    """The models that show what ``case`` declares falsely, small ones first: what is generated otherwise than usual."""
-    of_option = [n for n, options in consulted_for(case.subject.task).items() if case.option in options]
-    return of_option or list(consulted_for(case.subject.task))
+    """The models that show what ``case`` declares falsely: first what is generated otherwise than usual, and of that the small ones."""
+    consulted = consulted_for(case.subject.task)
+    of_option = [name for name, options in consulted.items() if case.option in options] or list(consulted)
+    usual, made = (p.generators[case.subject.task] for p in (REFERENCE, case.subject.derive(REFERENCE)))
+    return sorted(of_option, key=lambda name: usual(model_of(name)) == made(model_of(name)))
+
+
+@functools.cache
+def model_of(name: str) -> Model:
+    return read_model(mapping_models()[name].encode(), name).model
 
 
 @pytest.mark.slow
@@ -108,7 +119,7 @@ def failing(case: False_, expression: str = "") -> list[str]:
 def test_idl_that_is_otherwise_than_declared_is_found_out(case: False_) -> None:
     program = case.subject.derive(reference())
     for name in shown(case):
-        model = read_model(mapping_models()[name].encode(), name).model
+        model = model_of(name)
         if compare_idl(expected_idl(model), program.generators["idl"](model), {case.option: case.declared}).differences:
             return
     pytest.fail("it is spared")
@@ -120,7 +131,7 @@ def test_cpp_that_is_otherwise_than_declared_is_found_out(case: False_) -> None:
     standard: Standard = "cpp03" if case.subject.task == "cpp03" else "cpp11"
     program = case.subject.derive(reference())
     for name in shown(case)[:3]:
-        model = read_model(mapping_models()[name].encode(), name).model
+        model = model_of(name)
         files = program.generators[standard](model)
         if compare_cpp(model, files, standard, {case.option: case.declared}, Compiler()).differences:
             return

@@ -89,7 +89,24 @@ class CommandLine:
         made = None
         with suppress(OSError):  # the disk may be full, which each model will show
             made = self._together(task, models) if len(models) > 1 else None
-        return made or [self.process(task, name, text) for name, text in models]
+        return self._confirmed(task, models, made) if made else [self.process(task, *model) for model in models]
+
+    def _confirmed(self, task: Task, models: Sequence[tuple[str, str]], made: Sequence[Response]) -> list[Response]:
+        """What one call ``made`` of the models. Those that a refusal did not name are checked again: it may have named some only."""
+        unnamed = [model for model, response in zip(models, made, strict=True) if response.accepted]
+        if len(unnamed) in (0, len(models)):
+            return list(made)
+        again = None
+        with suppress(OSError):
+            again = self._together(task, unnamed) if len(unnamed) > 1 else None
+        if again is None or not all(response.accepted for response in again):
+            again = [self.process(task, *model) for model in unnamed]
+        if not all(response.accepted for response in again):
+            with self._counting:
+                self._together_calls.subtract([""])
+                self._together_calls.update([_SOME])
+        rest = iter(again)
+        return [next(rest) if response.accepted else response for response in made]
 
     def warnings(self) -> tuple[str, ...]:
         calls = self._together_calls.total()
@@ -221,7 +238,9 @@ _TOO_LONG = f"printed more than {_OUTPUT_OF_SEVERAL >> 20} MiB"
 _NO_ANSWER = "came to no answer"
 _UNNAMED = "refused, and no diagnostic named one of their files"
 _CONTRADICTION = "ended with exit status 0, although diagnostics named some of their files"
+_SOME = "named some of the models that they refused"
 _MENDS = {
+    _SOME: "print a diagnostic of each model, or write {model} for {models}",
     _TOO_LONG: "print less of each",
     _NO_ANSWER: "the report shows which model it was, if it happened again",
     _UNNAMED: "let each diagnostic name its file, correct 'diagnostic' in [check], or write {model} for {models}",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -12,8 +13,10 @@ from ucm_cts.harness.toolchains.commands.processing import CommandLine, Response
 MODELS = [("good", "<a/>\n"), ("bad", "<a/>\n<wrong/>\n"), ("fine", "<a/>\n")]
 
 
-def checked(folder: Path, script: str, diagnostic: str = "") -> tuple[list[Response], tuple[str, ...]]:
-    """What becomes of ``MODELS`` by the shell script, and the warnings."""
+def checked(
+    folder: Path, script: str, diagnostic: str = "", models: Sequence[tuple[str, str]] = MODELS
+) -> tuple[list[Response], tuple[str, ...]]:
+    """What becomes of ``models`` by the shell script, and the warnings."""
     program = folder / "check.sh"
     program.write_text(f"#!/bin/sh\n{script}\n")
     program.chmod(0o755)
@@ -21,7 +24,7 @@ def checked(folder: Path, script: str, diagnostic: str = "") -> tuple[list[Respo
     expression = f"diagnostic = '''{diagnostic}'''\n" if diagnostic else ""
     described.write_text(f'product = "p"\nversion = "1"\n[check]\ncommand = ["./check.sh", "{{models}}"]\n{expression}')
     chain = CommandLine(read_toolchain(described))
-    return chain.process_all("check", MODELS), chain.warnings()
+    return chain.process_all("check", models), chain.warnings()
 
 
 EACH = 's=0; for m in "$@"; do n=$(grep -n wrong "$m" | cut -d: -f1); [ -n "$n" ] && s=1 && {}; done; exit $s'
@@ -66,6 +69,27 @@ def test_what_is_not_clear_is_asked_one_by_one_with_a_warning(tmp_path: Path, sc
     (warning,) = warnings
     assert "1 of 1 calls" in warning
     assert reason in warning
+
+
+MANY = [(f"m{n}", "<a/>\n<wrong/>\n" if n % 3 else "<a/>\n") for n in range(8)]
+
+
+@pytest.mark.parametrize("kept", ["head -1", "tail -1", "shuf -n 1"], ids=["first", "last", "any"])
+def test_a_checker_that_prints_one_finding_a_call_is_asked_again(tmp_path: Path, kept: str) -> None:
+    script = f'found=$(grep -n wrong "$@" /dev/null | {kept}); [ -z "$found" ] || {{ echo "$found"; exit 1; }}'
+    responses, warnings = checked(tmp_path, script, models=MANY)
+    assert [r.accepted for r in responses] == [n % 3 == 0 for n in range(8)]
+    assert all(r.lines == {2} for r in responses if not r.accepted)
+    (warning,) = warnings
+    assert "1 of 2 calls" in warning
+    assert "named some of the models" in warning
+
+
+def test_a_checker_that_stops_at_the_first_refused_model_of_two_is_asked_for_the_other(tmp_path: Path) -> None:
+    script = 'found=$(grep -n wrong "$@" /dev/null | head -1); [ -z "$found" ] || { echo "$found"; exit 1; }'
+    responses, warnings = checked(tmp_path, script, models=MANY[1:3])
+    assert [r.accepted for r in responses] == [False, False]
+    assert "1 of 1 calls" in warnings[0]
 
 
 def test_remarks_name_no_lines() -> None:
