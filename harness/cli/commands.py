@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import sys
 from collections.abc import Sequence
@@ -265,9 +266,18 @@ cli.add_command(compare)
 cli.add_command(results)
 
 
+def _check_current_folder() -> None:
+    """Raise ``WrongUse`` if there is none: paths and adapters are looked for in it."""
+    try:
+        os.getcwd()
+    except OSError as error:
+        raise WrongUse(f"the current folder cannot be used: {error.strerror}; go to another one") from None
+
+
 def main() -> None:
     """The console entry point: turns an error into one clear line and an exit status."""
     try:
+        _check_current_folder()
         cli(standalone_mode=False)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)

@@ -19,6 +19,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 LINE_EVERY = 10
 """Off a terminal, progress is a line each so many seconds."""
 
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGXCPU)
+"""What asks a run to end: a user, a closed terminal, and what batch systems send before a job's time is used up."""
+
 _PLAIN = {
     ord(fine): plain
     for fine, plain in zip("✓✗⚡…–•●○→▶▷⇒◀×µ─╌═│┊┐┘┌└├┤┼┬┴", "+x!.-**o>>>=<xu--=||+++++++++", strict=True)
@@ -126,10 +129,10 @@ class Interrupts:
 
 @contextmanager
 def ends_like_interrupts() -> Iterator[Interrupts]:
-    """Treat a request to end, or a closed terminal, as an interrupt. After the first one, all are ignored until the process ends."""
+    """Treat all of ``ENDING`` as an interrupt. After the first one, all are ignored until the process ends."""
     interrupts = Interrupts()
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
-    ours = [number for number, handler in before.items() if handler is not signal.SIG_IGN]
+    before = {number: signal.getsignal(number) for number in ENDING}
+    ours = [number for number, handler in before.items() if handler not in (signal.SIG_IGN, None)]
     for number in ours:
         signal.signal(number, interrupts.note)
     try:

@@ -27,6 +27,9 @@ STATEMENTS = "ucm_cts.statements"
 
 FORMS = "a short name, package.module:Class, package.module, a path, tcp://HOST:PORT or unix:/PATH"
 
+LONGEST_SOCKET = 107
+"""The bytes that the system takes for the path of a socket."""
+
 EndpointKind = Literal["python", "executable", "tcp", "unix"]
 
 
@@ -135,9 +138,12 @@ def _parse(text: str, published: Mapping[str, EntryPoint]) -> Endpoint:
     if text.startswith("unix:"):
         if not text.removeprefix("unix:"):
             raise WrongUse(f"'{text}' names no socket; write unix:/PATH")
-        return Endpoint(text, "unix", os.path.abspath(text.removeprefix("unix:")))
+        socket = os.path.abspath(text.removeprefix("unix:"))
+        if len(os.fsencode(socket)) > LONGEST_SOCKET:
+            raise WrongUse(f"the path of a socket has at most {LONGEST_SOCKET} bytes; choose another for '{text}'")
+        return Endpoint(text, "unix", socket)
     path = Path(text)
-    if os.sep in text or path.is_file():
+    if os.sep in text or os.path.isfile(path):
         return _parse_path(text, path)
     module, colon, name = text.partition(":")
     if not all(part.isidentifier() for part in module.split(".")) or (colon and not name.isidentifier()):
@@ -160,9 +166,9 @@ def _address(text: str) -> str:
 
 
 def _parse_path(text: str, path: Path) -> Endpoint:
-    if not path.is_file():
+    if not os.path.isfile(path):  # also of a name that is too long to ask for
         raise WrongUse(
-            f"there is no file '{text}'" if not path.exists() else f"'{text}' is no file; name the adapter in it"
+            f"there is no file '{text}'" if not os.path.exists(path) else f"'{text}' is no file; name the adapter in it"
         )
     if path.suffix in (".so", ".pyd"):
         return Endpoint(text, "python", str(path.resolve()))

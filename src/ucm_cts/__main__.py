@@ -2,8 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
+
+
+def _open_standard_streams() -> None:
+    """Lead standard streams that are closed to nowhere: other files would get their numbers, and what is printed to them."""
+    for number, name, mode in ((0, "stdin", "r"), (1, "stdout", "w"), (2, "stderr", "w")):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # it gets the lowest free number
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - lives as long as we do
 
 
 def main() -> None:
@@ -11,6 +23,7 @@ def main() -> None:
     if sys.argv[1:] == ["--cmakedir"]:
         print(Path(__file__).parent / "share" / "cmake" / "ucm_cts")
         return
+    _open_standard_streams()
     try:
         from ucm_cts.harness.cli.commands import main as command_line
     except KeyboardInterrupt:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from aftermath import nothing_left  # noqa: F401 - a fixture
-from command_line import ucm_cts, within
+from command_line import report_of, ucm_cts, within
 
 from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.models.core_models import compare
@@ -134,6 +137,13 @@ INPUTS: dict[str, tuple[str, Callable[[Path], None], str]] = {
     "NUL in a socket": ("run unix:/a\0b", nothing, "no adapter answers at unix:/a\u2400b: .*"),
     "NUL in a path": ("run /a\0b", nothing, "there is no file '/a\u2400b'"),
     "NUL in a requirement": ("explain R\0", nothing, "no requirement, clause or operation 'R\u2400'.*"),
+    "long path of a socket": (
+        f"run unix:/{'x' * 300}",
+        nothing,
+        "the path of a socket has at most 107 bytes; choose another for 'unix:/x+'",
+    ),
+    "long path": (f"run /{'x' * 300}", nothing, "there is no file '/x+'"),
+    "long name": (f"run {'x' * 300}", nothing, "'x+' names no adapter.*"),
     "expression that looks ahead": (
         "run --toolchain t.toml",
         tools(more="diagnostic = '(?=x)(?P<line>1)'"),
@@ -167,6 +177,27 @@ def test_input_gets_one_line(here: Path, command: str, prepare: Callable[[Path],
     assert re.fullmatch(line, said), last
     assert all(one.startswith(("Usage: ", "Try ")) or not one for one in usage)
     assert files(here) == before, "nothing is written"
+
+
+def started(command: str) -> tuple[int, str, str]:
+    """Exit status and outputs of a shell's ``command``, in which ``$RUN`` runs a few scenarios."""
+    run = shlex.join([sys.executable, "-m", "ucm_cts", "run", "reference-py", "-k", "R-11.2.2.1-13"])
+    done = subprocess.run(["sh", "-c", command.replace("$RUN", run)], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_folder_that_is_gone_gets_one_line(here: Path) -> None:
+    status, out, err = started(f"mkdir gone; cd gone; rmdir ../gone; $RUN --out {here}/out")
+    assert (status, out) == (2, "")
+    assert err.endswith("the current folder cannot be used: No such file or directory; go to another one\n")
+    assert "Traceback" not in err
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_lose_nothing(here: Path, closed: str) -> None:
+    status, _, err = started(f"$RUN --out out {closed}")
+    assert (status, err) == (0, "")
+    assert report_of(here / "out")["verdict"] == "conformant"
 
 
 def test_names_may_hold_anything(here: Path) -> None:

@@ -15,9 +15,9 @@ import pytest
 from command_line import report_of, ucm_cts, within
 from lxml import etree
 
-from ucm_cts.harness.cli.terminal import Interrupts, ends_like_interrupts
+from ucm_cts.harness.cli.terminal import ENDING, Interrupts, ends_like_interrupts
 
-SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+SIGNALS = list(ENDING)
 WAITS_AT = """
 import os, threading
 from pathlib import Path
@@ -68,8 +68,9 @@ def interrupted(calls: int, first: signal.Signals, *options: str, again: int = 0
     return process.returncode, out, err, children
 
 
-@pytest.mark.parametrize("again", [0, 5])
-@pytest.mark.parametrize("first", SIGNALS)
+@pytest.mark.parametrize(
+    ("first", "again"), [*((first, 0) for first in SIGNALS[:4]), *((first, 8) for first in (SIGNALS[0], SIGNALS[-1]))]
+)
 def test_interrupted_run_says_so_in_all_three_reports(
     here: Path, calls: int, first: signal.Signals, again: int
 ) -> None:
