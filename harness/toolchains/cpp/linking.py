@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import fnmatch
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ucm_cts.harness.toolchains.cpp.compiling import STANDARDS, Compiler, Headers, read_errors, run
+from ucm_cts.harness.toolchains.cpp.compiling import (
+    STANDARDS,
+    Compiled,
+    Compiler,
+    Headers,
+    compile_text,
+    read_errors,
+    run,
+)
 
 SUFFIXES = (".cpp", ".cc", ".cxx", ".C")
 
@@ -47,6 +55,21 @@ def linked(headers: Headers, standard: str, compiler: Compiler, folder: Path) ->
 def matches(name: str, pattern: str) -> bool:
     """Whether the file ``name`` fits ``pattern``, whose ``**/`` at the beginning stands for no folder, too."""
     return fnmatch.fnmatchcase(name, pattern) or fnmatch.fnmatchcase(name, pattern.removeprefix("**/"))
+
+
+def in_two_units(
+    names: Sequence[str], headers: Headers, standard: str, compiler: Compiler, folder: Path, beside: Linked
+) -> Compiled:
+    """What the compiler and the linker say of a program of two translation units that include all of ``headers`` that have
+    ``names``, one of them in the order of the names turned round. Raises ``NoCompiler``.
+    """
+    own = folder / "two-units"
+    own.mkdir()
+    second = own / "second.cpp"
+    second.write_text("\n".join([*map(headers.include, names), ""]), encoding="utf-8")
+    first = "\n".join([*map(headers.include, reversed(names)), "int main() { return 0; }", ""])
+    words = (str(second), *beside.words)
+    return compile_text(first, own, headers, standard, compiler, own / "program", words)
 
 
 def _sources(folder: Path) -> Iterator[Path]:

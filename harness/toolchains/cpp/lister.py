@@ -31,7 +31,15 @@ class Question(Value, frozen=True):
     number: int
     line: int
     place: str
-    kind: Literal["not-corba", "nothing-else", "is-element", "no-operations", "not-in-header", "no-other-enumerators"]
+    kind: Literal[
+        "not-corba",
+        "nothing-else",
+        "is-element",
+        "no-operations",
+        "not-in-header",
+        "no-other-enumerators",
+        "fixed-type",
+    ]
     members: tuple[str, ...] = ()
 
 
@@ -180,6 +188,8 @@ class _Tree:
                     yield self._found(f"{method.spelling} is pure virtual", method)
         elif one.kind == "no-other-enumerators":
             yield from self._others(owner, one.members)
+        elif one.kind == "fixed-type":
+            yield from self._untyped(owner)
         else:
             elements = self._descent.get(one.number, [])
             if one.kind == "is-element":
@@ -203,6 +213,16 @@ class _Tree:
         for other in owner.get_children():
             if other.kind == cindex.CursorKind.ENUM_CONSTANT_DECL and other.enum_value not in values:
                 yield self._found(f"it has {other.spelling}", other)
+
+    def _untyped(self, owner: Any) -> Iterator[Found]:
+        """An enumeration whose declaration leaves the type of its values to the compiler; one that a macro writes is not judged."""
+        if owner.kind != cindex.CursorKind.ENUM_DECL:
+            raise NotThere("it is no enumeration")
+        written = [token.spelling for token in owner.get_tokens()]
+        if written[:1] != ["enum"] or "{" not in written:
+            raise NotThere("its declaration is written by a macro")
+        if not owner.is_scoped_enum() and ":" not in written[: written.index("{")]:
+            yield self._found("it names none", owner)
 
     def _defined(self, asked: Any) -> Iterator[Found]:
         uses = (c.referenced for c in asked.walk_preorder() if c.kind == cindex.CursorKind.DECL_REF_EXPR)

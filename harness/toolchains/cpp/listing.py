@@ -36,8 +36,11 @@ LISTED = (
     claims.NoOperations,
     claims.NotInHeader,
     claims.NoOtherEnumerators,
+    claims.FixedType,
 )
 """The claims that libclang decides."""
+
+_OF_ENUMERATIONS = (claims.NoOtherEnumerators, claims.FixedType)
 
 COMMAND = (sys.executable, "-P", "-m", lister.__name__)
 """The program that uses libclang; a file with a request follows."""
@@ -81,6 +84,8 @@ def _says(one: Expected) -> str:
             return f"no header gives {name} its value"
         case claims.NoOtherEnumerators(name, names):
             return f"{name} has no values but {', '.join(names)}"
+        case claims.FixedType(name):
+            return f"{name} is declared with the type of its values"
         case claims.InheritsElement(owner):
             return f"{class_words(owner)} derives from PortElementObject"
     return "PortElementObject has no operations"
@@ -128,7 +133,7 @@ def _text(number: int, one: Expected) -> str:
     claim = one.claim
     if isinstance(claim, claims.NotInHeader):
         return f"namespace ucts_asked_{number} {{ inline void {ASKED}() {{ (void){claim.name}; }} }}"
-    asked = claim.name if isinstance(claim, claims.NoOtherEnumerators) else class_text(_owner(claim))
+    asked = claim.name if isinstance(claim, _OF_ENUMERATIONS) else class_text(_owner(claim))
     return f"namespace ucts_asked_{number} {{ typedef {asked} {ASKED}; }}"
 
 
@@ -139,7 +144,7 @@ def _owner(claim: claims.Claim) -> Class:
 
 def _helper(one: Expected) -> str:
     """What must be declared before; a text without a line end of its own."""
-    of_class = not isinstance(one.claim, claims.NotInHeader | claims.NoOtherEnumerators)
+    of_class = not isinstance(one.claim, (claims.NotInHeader, *_OF_ENUMERATIONS))
     owner = _owner(one.claim) if of_class else None
     return connection_declared(owner.owner, owner.connection) if isinstance(owner, Connected) else ""
 
@@ -155,6 +160,8 @@ def _question(number: int, line: int, one: Expected, disguise: Disguise) -> Ques
             return Question(number, line, place, "not-in-header")
         case claims.NoOtherEnumerators(_, names):
             return Question(number, line, place, "no-other-enumerators", names)
+        case claims.FixedType():
+            return Question(number, line, place, "fixed-type")
         case claims.InheritsElement():
             return Question(number, line, place, "is-element")
     return Question(number, line, place, "no-operations")

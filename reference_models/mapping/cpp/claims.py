@@ -138,6 +138,10 @@ class EnumForm(_OfName, frozen=True):
     forms: tuple[Literal["enum", "enum-class"], ...]
 
 
+class FixedType(_OfName, frozen=True):
+    """The enumeration is scoped, or its declaration names the type of its values."""
+
+
 class Underlying(_OfTypes, frozen=True):
     """``name`` is stored as one of ``types``."""
 

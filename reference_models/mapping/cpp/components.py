@@ -56,7 +56,9 @@ class Components:
         self.abstract: list[classes.Abstract] = []
 
     def expected(self) -> Iterator[Expected]:
-        """What is expected of all atomic implementations in C++."""
+        """What is expected of all atomic implementations in C++, unless the vendor has generic bodies only (13.9)."""
+        if self._context.reading("cpp-bodies") == "generic":
+            return
         for declared in self._context.declared:
             element = declared.element
             if isinstance(element, components.AtomicComponentImplementation) and _is_cpp(element.language):

@@ -211,6 +211,7 @@ def _enumeration(declared: Declared, enumeration: contracts.Enumeration, context
         reading = context.reading("cpp-enum")
         forms: tuple[str, ...] = ("enum", "enum-class") if reading == OBSERVED else (reading,)
         yield expect(form, declared, claims.EnumForm(name, forms))  # type: ignore[arg-type]
+        yield expect(form, declared, claims.FixedType(name))
         if types:
             yield expect(inner, declared, claims.Underlying(name, types))
     else:

@@ -243,7 +243,8 @@ template <class D, class I> struct safe< ::ucm::safe_enum<D, I> > { typedef D de
 
 ARRAY_WORKS = """\
     typedef ::ucm::array<int, 3> A;
-    A a = A(), b = A();
+    A a = A(), b = A(), listed = {1, 2, 3};
+    ::ucts::require(listed[0] == 1 && listed[2] == 3, "it is not made from a list of its elements");
     const A& c = a;
     for (::std::size_t i = 0; i < 3; ++i) { a[i] = static_cast<int>(i); }
     ::ucts::require(c.size() == 3 && c.max_size() == 3 && !c.empty(), "its size is not that of its type");
@@ -283,12 +284,17 @@ struct base { static int alive; int value; base() : value(7) { ++alive; } ~base(
 int base::alive = 0;
 struct derived : base { static int gone; ~derived() { ++gone; } };
 int derived::gone = 0;
+::ucts::yes_type becomes_one(const ::ucm::shared_ptr<base>&);
+::ucts::no_type becomes_one(...);
 """
 
 SHARED_WORKS = """\
     typedef ::ucm::shared_ptr<base> P;
     {
         P none;
+        base* const bare = 0;
+        const bool is_taken = sizeof(becomes_one(bare)) == sizeof(::ucts::yes_type);
+        ::ucts::require(!is_taken, "a bare pointer becomes one without being asked to");
         ::ucts::require(!none && none.get() == 0 && none.use_count() == 0, "a new one is not null");
         P first(new base);
         ::ucts::require(first && first->value == 7 && (*first).value == 7, "it does not lead to its object");

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ucm_cts.harness.toolchains.commands.bounded import Ended
 from ucm_cts.harness.toolchains.cpp import compiling
-from ucm_cts.harness.toolchains.cpp.linking import Linked, linked
+from ucm_cts.harness.toolchains.cpp.linking import Linked, in_two_units, linked
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, Listed, listed
 from ucm_cts.harness.toolchains.cpp.probes.bodies import implementation, implemented, runs
 from ucm_cts.harness.toolchains.cpp.probes.check import (
@@ -101,12 +101,14 @@ class _Comparing:
     def compared(self) -> Comparison:
         with tempfile.TemporaryDirectory(prefix="ucm-cts-probes-") as folder, ThreadPoolExecutor(_THREADS) as threads:
             alone = list(threads.map(lambda name: self._alone(name, Path(folder)), self._headers.names))
-            of_headers = [found for one in alone for found in one] or self._in_another_order(Path(folder))
+            of_headers = [found for one in alone for found in one]
+            if not self._seen.problem:
+                self._linked = linked(self._headers, self._expected.standard, self._compiler, Path(folder))
+                of_headers = of_headers or self._in_two_units(Path(folder))
             if self._seen.problem:
                 wanted = (e.requirement for e in self._expected.expected if isinstance(e.claim, LISTED))
                 return self._comparison(of_headers, ([], {}, dict.fromkeys(wanted, self._seen.problem)))
             listing = threads.submit(listed, self._expected, self._headers, self._compiler)
-            self._linked = linked(self._headers, self._expected.standard, self._compiler, Path(folder))
             self._probe(Path(folder))
             return self._comparison(of_headers, listing.result())
 
@@ -142,20 +144,17 @@ class _Comparing:
             return [self._of_header(name, compiled.problem, (name, 0))]
         return [self._of_header(name, _message_of(e), self._place_in(name, e)) for e in compiled.errors[:1]]
 
-    def _in_another_order(self, folder: Path) -> list[Difference]:
-        """Whether all headers compile together in the order of their names turned round; probes include them in that order."""
+    def _in_two_units(self, folder: Path) -> list[Difference]:
+        """Whether all headers compile together in the order of their names turned round, which probes do not include them in,
+        and two translation units of a program may include them.
+        """
         names = [name for name in self._headers.names if compiling.can_be_named(name)]
-        if self._seen.problem or len(names) < 2:
+        if not names:
             return []
-        own = folder / "another-order"
-        own.mkdir()
-        included = "\n".join(map(self._headers.include, reversed(names)))
-        how = f"in the order {', '.join(reversed(names))}"
-        text = f"{included}\nint main() {{ return 0; }}\n"
-        compiled = compiling.compile_text(text, own, self._headers, self._expected.standard, self._compiler)
-        return [
-            self._of_header(names[0], _message_of(e), self._place_in(names[0], e), how) for e in compiled.errors[:1]
-        ]
+        compiled = in_two_units(names, self._headers, self._expected.standard, self._compiler, folder, self._linked)
+        how = f"in the order {', '.join(reversed(names))}, and in two translation units of a program"
+        held = [e for e in compiled.errors if not e.message.startswith("undefined reference")]  # which probes report
+        return [self._of_header(names[0], _message_of(e), self._place_in(names[0], e), how) for e in held[:1]]
 
     def _of_header(self, name: str, observed: str, place: tuple[str, int], how: str = "alone and twice") -> Difference:
         standard = {"cpp11": "C++11", "cpp03": "C++03"}[self._expected.standard]
