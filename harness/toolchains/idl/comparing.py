@@ -31,6 +31,7 @@ CHECKS = {
     "idl_modules": "Each module is a module that holds what the model's module holds, a template where abstract types are used.",
     "idl_components": "Component types and implementations are interfaces with their ancestors, attributes and getters.",
     "idl_interactions": "Nothing is made of connectors, patterns, port types, policy definitions, composites and configuration parameters.",
+    "idl_equivalents": "Connectors, port types and components that stand beside clause 12's declarations are as clause 9 shows them.",
     "idl_decoration": "Annotations and comments in a model change nothing of what is generated.",
     "idl_standard": "Declarations that clause 12 prints are as printed, wherever they stand.",
 }

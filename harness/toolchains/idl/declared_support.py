@@ -19,6 +19,10 @@ ASKED_OF: dict[str, tuple[str, ...]] = {
     "R-12.10-3?": ("idl-standard-files=generated",),
     "R-12.11.[12]-*": ("standard-idl=printed", "standard-idl=printed-with-timers"),
     "R-12.11.3-*": ("standard-idl=printed-with-timers",),
+    "R-9.3.2.3-02": ("idl-output=both",),
+    "R-9.3.4.7-*": ("idl-output=both",),
+    "R-9.3.5.5-0[123]": ("idl-output=both",),
+    "R-9.5.3.10-0[246]": ("idl-output=both",),
     "R-14-06": ("idl-enumerator-values=default-value", "idl-attribute-defaults=annotated"),
 }
 """By patterns of requirements: the readings (``option=value``) of which one must be declared. A vendor who may leave a thing out keeps or

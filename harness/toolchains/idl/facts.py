@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from ucm_cts.harness.toolchains.idl import facts_of_equivalents as equivalents
 from ucm_cts.harness.toolchains.idl import facts_of_interfaces as interfaces
 from ucm_cts.harness.toolchains.idl.annotations import defaulted, indexed, numbered, tagged
 from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Hit, Scope, every, resolve
@@ -304,6 +305,10 @@ FACTS: Mapping[type[exp.Expected], Callable[[Vendor, Any], list[Wrong]]] = {
     exp.Getter: interfaces.getter,
     exp.NoGetter: interfaces.no_getter,
     exp.NoMember: interfaces.no_member,
+    exp.Equivalent: equivalents.equivalent,
+    exp.EquivalentMember: equivalents.equivalent_member,
+    exp.EquivalentComponent: equivalents.equivalent_component,
+    exp.OnlyInteractions: equivalents.only_interactions,
     exp.Numbered: numbered,
     exp.Tagged: tagged,
     exp.Indexed: indexed,

@@ -233,10 +233,25 @@ class AnnotationDefinition(Declaration, frozen=True, kw_only=True):
     members: tuple[Member, ...] = ()
 
 
-class Extended(Declaration, frozen=True, kw_only=True):
-    """A declaration of another building block, named by its first keyword: component, connector, porttype or valuetype."""
+class ExtendedMember(Declaration, frozen=True, kw_only=True):
+    """``kind`` is provides, uses, port, mirrorport or another keyword."""
 
     kind: str
+    type: Type
+
+
+class Extended(Declaration, frozen=True, kw_only=True):
+    """A declaration of another building block, named by its first keyword: component, connector, porttype or valuetype.
+
+    ``bases``: what it extends.
+    ``members``: what it provides, uses and the like.
+    ``attributes``: its attributes.
+    """
+
+    kind: str
+    bases: tuple[str, ...] = ()
+    members: tuple[ExtendedMember, ...] = ()
+    attributes: tuple[Attribute, ...] = ()
 
 
 KINDS: dict[type[Declaration], str] = {
@@ -256,6 +271,7 @@ KINDS: dict[type[Declaration], str] = {
     Parameter: "parameter",
     Member: "member",
     Case: "union case",
+    ExtendedMember: "member",
     TemplateParameter: "template parameter",
     AnnotationDefinition: "annotation",
 }

@@ -39,6 +39,10 @@ STANDS_FOR: dict[str, tuple[str, ...]] = {
         *("R-12.9-02", "R-12.9-03", "R-12.9-05"),
         *("R-9.1.2-02", "R-9.3.3.7-01", "R-9.4.1-07", "R-9.5.5.9-01"),
     ),
+    "idl_equivalents": (
+        *("R-9.3.2.3-02", "R-9.3.4.7-01", "R-9.3.4.7-02", "R-9.3.5.5-01", "R-9.3.5.5-02", "R-9.3.5.5-03"),
+        *("R-9.5.3.10-02", "R-9.5.3.10-04", "R-9.5.3.10-06"),
+    ),
     "idl_decoration": ("R-9.2.9.4-04",),
     "idl_standard": (
         *(f"R-12.10-{n:02}" for n in range(29, 39)),
@@ -242,6 +246,32 @@ class NoMember(Expected, frozen=True, kw_only=True):
 
 class Undeclared(Expected, frozen=True, kw_only=True):
     """Nothing has been made of this element: there is no declaration of its name where it would stand."""
+
+
+class Equivalent(Expected, frozen=True, kw_only=True):
+    """It is there as ``kind`` (connector or porttype), as clause 9 shows it."""
+
+    kind: str
+
+
+class EquivalentMember(Expected, frozen=True, kw_only=True):
+    """The ``kind`` at the path has a member of ``keyword`` and ``name``; ``type`` is where its type stands, empty if that is open."""
+
+    kind: str
+    keyword: str
+    name: str
+    type: Path
+
+
+class EquivalentComponent(Expected, frozen=True, kw_only=True):
+    """A component of the name has just these ``names`` of an ``aspect``: ports, attributes or base."""
+
+    aspect: str
+    names: tuple[str, ...]
+
+
+class OnlyInteractions(Expected, frozen=True, kw_only=True):
+    """The module has nothing but connectors, port types and modules."""
 
 
 class Abstract(msgspec.Struct, frozen=True):

@@ -24,6 +24,7 @@ from ucm_cts.reference_models.mapping.idl.components import (
     port_element_interfaces,
 )
 from ucm_cts.reference_models.mapping.idl.data_types import constant_facts, data_type_facts, is_mapped, meaning_of
+from ucm_cts.reference_models.mapping.idl.equivalents import equivalent_facts
 from ucm_cts.reference_models.mapping.idl.interfaces import exception_facts, interface_facts
 from ucm_cts.reference_models.mapping.idl.subjects import Subject, path_in, path_of
 from ucm_cts.reference_models.mapping.idl.templates import ABSTRACT, Templates, abstract
@@ -65,6 +66,7 @@ def _facts(model: Model, names: Names) -> Iterator[exp.Expected]:
         if not isinstance(element, Named):
             continue
         subject = Subject(element, scope)
+        yield from equivalent_facts(subject)
         match element:
             case c.DataType():
                 yield from data_type_facts(subject)

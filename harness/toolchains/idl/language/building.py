@@ -142,7 +142,22 @@ class Builder(Transformer[Any, Any]):
         )
 
     def extended(self, kind: Token, name: Token, *rest: Any) -> idl.Extended:
-        return idl.Extended(**self._named(name), kind=str(kind))
+        inside = _flat(part for part in rest if isinstance(part, (idl.Declaration, tuple)))
+        return idl.Extended(
+            **self._named(name),
+            kind=str(kind),
+            bases=rest[0]
+            if rest and isinstance(rest[0], tuple) and all(isinstance(one, str) for one in rest[0])
+            else (),
+            members=_of(idl.ExtendedMember, inside),
+            attributes=_of(idl.Attribute, inside),
+        )
+
+    def extended_member(self, *parts: Any) -> Any:
+        if isinstance(parts[-1], tuple):
+            return parts[-1]
+        keyword, type_, name = parts[-3:]
+        return idl.ExtendedMember(**self._named(name), kind=str(keyword), type=type_)
 
     # Types
     def named(self, name: str) -> idl.Named:
