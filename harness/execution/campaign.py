@@ -164,10 +164,13 @@ class Campaign:
             return
         patience = self.statement.ixit["patience"] / 1000
         for name, scenario in purpose.scenarios:
-            examined = leftovers.examine(self._driver, name, scenario, patience)
-            if examined is None:
+            try:
+                examined = leftovers.examine(self._driver, name, scenario, patience)
+            except leftovers.NotCounted:
                 reason = "the process of its host is not on this machine, or its threads and files cannot be counted"
                 self._tally.settle(leftovers.FREED, "not applicable", reason)
+                continue
+            if examined is None:
                 continue
             answer, finding = examined
             self._tally.exercised[leftovers.FREED] += 1

@@ -29,10 +29,14 @@ _SERIES = (8, 8, 24)
 _BETWEEN_COUNTS = 0.02
 
 
-def examine(driver: Driver, name: str, scenario: Scenario, patience: float) -> tuple[Answer, Finding | None] | None:
-    """The last run of ``scenario`` and the finding, if destroy leaves something behind; None if that cannot be counted.
+class NotCounted(Exception):
+    """What the host's process holds cannot be counted."""
 
-    What is left may go within ``patience`` seconds.
+
+def examine(driver: Driver, name: str, scenario: Scenario, patience: float) -> tuple[Answer, Finding | None] | None:
+    """The last run of ``scenario`` and the finding, if destroy leaves something behind; None if a run did not end.
+
+    What is left may go within ``patience`` seconds. Raises ``NotCounted``.
     """
     with closing(driver.many_times(name, scenario)) as runs:
         answer: Answer | None = None
@@ -44,8 +48,10 @@ def examine(driver: Driver, name: str, scenario: Scenario, patience: float) -> t
         for series in _SERIES:
             for _ in range(series):
                 answer, after = next(runs, (None, None))
-            if answer is None or before is None or after is None:
+            if answer is None:
                 return None
+            if before is None or after is None:
+                raise NotCounted
             until = time.monotonic() + patience
             while (leaking_now := leaking & _grown(before, after, series)) and time.monotonic() < until:
                 time.sleep(_BETWEEN_COUNTS)

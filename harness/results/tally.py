@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Protocol, TypeVar
 
 import msgspec
@@ -188,9 +188,10 @@ class Tally:
         by_requirement: dict[str, list[v.ReportedFinding]] = {}
         for failure in self.failures.values():
             by_requirement.setdefault(failure.finding.requirement, []).append(failure)
-        return tuple(
+        results = [
             self._result(r, by_requirement.get(r.id, []), known_failures) for r in requirements if not r.untestable
-        )
+        ]
+        return tuple(_without_circles(results))
 
     def _result(
         self, requirement: Requirement, failures: list[v.ReportedFinding], known_failures: Sequence[KnownFailure]
@@ -247,6 +248,21 @@ class Tally:
         empty = RowTally()
         rows = [(row.id, self.rows.get(row.id, empty)) for row in table.rows]
         return tuple(v.TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
+
+
+def _without_circles(results: Sequence[v.RequirementResult]) -> Iterator[v.RequirementResult]:
+    """Of two requirements that both failed after each other neither explains the other, unless it is named as its cause."""
+    explained = {result.id: {one for f in result.findings for one in f.explains} for result in results}
+    caused_by = {result.id: result.caused_by for result in results}
+    for result in results:
+        after = {
+            id_ for id_ in explained[result.id] if result.id in explained.get(id_, ()) and caused_by[id_] != result.id
+        }
+        findings = tuple(
+            msgspec.structs.replace(f, explains=tuple(id_ for id_ in f.explains if id_ not in after))
+            for f in result.findings
+        )
+        yield msgspec.structs.replace(result, findings=findings)
 
 
 def _repeatable(evidence: v.Evidence | None) -> object:

@@ -30,12 +30,12 @@ _BY_CONNECTOR = {
 class _OpenCall:
     """A business call that has not come back; ``lost``: nothing but the framework can be the reason.
 
-    ``gone``: it leads to what is removed, or through a connection that is undone.
+    ``call`` says what is called.
     """
 
     event: t.Call | t.Request
+    call: s.Invoke | t.Request
     possible: bool
-    gone: bool = False
     ended: bool = False
     overdue: bool = False
 
@@ -127,8 +127,7 @@ class _Reading:
                 call.ended = True
 
     def _add_call(self, event: t.Call | t.Request, call: s.Invoke | t.Request) -> None:
-        there = self.targets.are_there(call)
-        self.calls[event.n] = _OpenCall(event, self.all_ready() and there, not there)
+        self.calls[event.n] = _OpenCall(event, call, self._all_ready() and self.targets.are_there(call))
 
     def _note_phase(self, event: t.Enter) -> None:
         if event.hook == "on_shutdown":
@@ -147,9 +146,12 @@ class _Reading:
             for call in self.calls.values():
                 call.overdue = call.overdue or not call.ended
 
-    def all_ready(self) -> bool:
-        """Is every component operational that is there?"""
+    def _all_ready(self) -> bool:
         return all(self.ready.values())
+
+    def is_left_open(self, call: _OpenCall) -> bool:
+        """Was the call impossible when it was made, and is it still?"""
+        return not call.possible and not (self._all_ready() and self.targets.are_there(call.call))
 
     def tops(self) -> Iterator[t.Event]:
         """What each thread is doing last."""
@@ -166,9 +168,7 @@ def is_left_open(execution: Execution) -> bool:
     for event in execution.trace:
         reading.take(event)
     under_way = [reading.calls.get(event.n) for event in reading.tops()]
-    return bool(under_way) and all(
-        call is not None and not call.possible and (call.gone or not reading.all_ready()) for call in under_way
-    )
+    return bool(under_way) and all(call is not None and reading.is_left_open(call) for call in under_way)
 
 
 def lost_call(execution: Execution) -> t.Call | t.Request | None:

@@ -313,10 +313,8 @@ def test_julia_shows_its_habits(java: JavaBuilds, monkeypatch: pytest.MonkeyPatc
     report = report_of(java.folder / "julia")
     failing = {one["id"] for one in report["requirements"] if one["verdict"] == "fail"}
     check(habits, failing, report["readings"])
-    kinds = {
-        (incident["kind"], "incrementFcInvocationCounter" in incident["stacks"]) for incident in report["incidents"]
-    }
-    assert kinds == {("hang", True)}, "calls of what is not started wait; nothing else gets in the way"
+    assert report["incidents"] == []
+    assert "waited for ever" in "".join(report["warnings"]), "calls of what is not started wait"
     assert "error" not in {one["verdict"] for one in report["requirements"]}
 
 

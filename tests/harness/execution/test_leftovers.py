@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 
-from ucm_cts.harness.execution.driver import Driver
-from ucm_cts.harness.execution.leftovers import FREED, examine
+from ucm_cts.adapters.contract.scenario import Stop
+from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.execution.leftovers import FREED, NotCounted, examine
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.scripts import load_scripts, to_scenario
 
@@ -32,5 +34,12 @@ def test_what_is_left_behind_is_counted(adapter: str, cause: str | None) -> None
 
 
 def test_a_host_that_shares_the_harness_process_is_not_counted() -> None:
-    with Driver(locate("reference-py", True), 1) as driver:
-        assert examine(driver, "destroy", SCENARIO, 0.3) is None
+    with Driver(locate("reference-py", True), 1) as driver, pytest.raises(NotCounted):
+        examine(driver, "destroy", SCENARIO, 0.3)
+
+
+@pytest.mark.usefixtures("here")
+def test_a_framework_that_does_not_come_back_is_not_excused() -> None:
+    with Driver(locate("hostile.failing:HangsInStop"), 1, Limits(seconds=1)) as driver:
+        hangs = msgspec.structs.replace(SCENARIO, steps=(*SCENARIO.steps[:-1], Stop(), SCENARIO.steps[-1]))
+        assert examine(driver, "destroy", hangs, 0.3) is None
