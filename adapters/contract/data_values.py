@@ -85,8 +85,9 @@ def _misfit_of_string(of: d.String, value: object) -> str:
         return f"{told(value, _LONGEST)} is no string"
     if 0 <= of.size < len(value):
         return f"{len(value)} characters are more than {of.size}"
-    wrong = [c for c in value if not 0 < ord(c) <= _LARGEST[of.base] or ord(c) in _SURROGATES]
-    return f"U+{ord(wrong[0]):04X} is no character of a {of.base} string" if wrong else ""
+    wrong = {c for c in set(value) if not 0 < ord(c) <= _LARGEST[of.base] or ord(c) in _SURROGATES}
+    first = next(c for c in value if c in wrong) if wrong else ""
+    return f"U+{ord(first):04X} is no character of a {of.base} string" if first else ""
 
 
 def _misfit_of_structure(of: d.Structure, value: object) -> str:

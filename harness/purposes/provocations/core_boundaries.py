@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
+import msgspec
+
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
+from ucm_cts.adapters.contract.data_types import (
+    AnyType,
+    Datum,
+    Integer,
+    Interface,
+    Method,
+    Parameter,
+    Sequence,
+    String,
+    message_interface,
+)
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
 from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, provided_end, required_end
+from ucm_cts.harness.purposes.data.corner_values import LONG_STRING
 from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
@@ -16,6 +29,9 @@ _SERVER = Declaration(
     ("in.api",), policies=(_UNPROTECTED,), plan={"method": (s.Answer("serve"),)}, ports={"in.api": "service"}
 )
 _RUNNER = Declaration(("in.api",), policies=(Policy(s.SELF_EXECUTING),), plan={"run": (s.HoldAtGate("ran"),)})
+_LONGEST_SEQUENCE = 4097
+"""The most elements of a sequence that are carried: a trace holds each of them several times."""
+
 _TRACE = "trace.trace_api"
 _MOST = 8
 """The most components of a kind. Calls and records have no such limit."""
@@ -42,11 +58,65 @@ def core_boundary_purposes() -> list[TestPurpose]:
         text = f"There are {', '.join(map(str, some))} {what}."
         scenarios = tuple((f"boundary/{count} {what}", make(count)) for count in some)
         purposes.append(TestPurpose(name, clause, text, requirements, scenarios))
+    purposes.append(_sizes())
     text = f"A component that runs again and again is started {', '.join(map(str, few))} times; each phase has a run of its own."
     name = "boundary/phases with runs"
     scenarios = tuple((f"boundary/{count} phases with runs", _running_phases(count, again=True)) for count in few)
     purposes.append(TestPurpose(name, "10.1.3.2", text, ("R-10.1.3.2-01",), scenarios, under=("run-trigger=repeated",)))
     return purposes
+
+
+def _sizes() -> TestPurpose:
+    """Long texts and sequences, in services and in messages; shorter ones are corner values of their types (harness/purposes/data/)."""
+    sizes = [size for size in load_boundaries().sizes if size > LONG_STRING]
+    some = [size for size in sizes if size <= _LONGEST_SEQUENCE]
+    texts = tuple("x" * (size - 1) + "y" for size in sizes)
+    numbers = tuple([*range(size - 1), size] for size in some)
+    scenarios = (
+        ("boundary/texts of many sizes in services", _echoed(String("CHAR8"), texts)),
+        ("boundary/texts of many sizes in messages", _pushed(String("CHAR8"), texts)),
+        ("boundary/sequences of many sizes in messages", _pushed(Sequence(_NUMBER), numbers)),
+    )
+    text = f"Texts of {_list(sizes)} characters and sequences of {_list(some)} elements are carried."
+    return TestPurpose("boundary/sizes of values", "10.1.1", text, ("R-10.1.1-11", "R-10.1.1-16"), scenarios)
+
+
+def _list(numbers: list[int]) -> str:
+    return ", ".join(map(str, numbers))
+
+
+def _echoed(of: AnyType, values: tuple[Datum, ...]) -> Scenario:
+    """A client calls with each of ``values`` and gets it back."""
+    interfaces = {"service": Interface({"serve": Method((Parameter("given", "INOUT", of),))})}
+    calls = tuple(s.CallMethod("out.api", "serve", (value,)) for value in values)
+    client = msgspec.structs.replace(_user(calls[0], "service"), plan={"exchange": calls})
+    return Scenario({"server": _SERVER, "client": client}, _ECHO, interfaces=interfaces)
+
+
+def _pushed(of: AnyType, values: tuple[Datum, ...]) -> Scenario:
+    """An emitter pushes each of ``values`` to a receiver."""
+    pushes = tuple(s.CallMethod("out.api", s.PUSH, (value,)) for value in values)
+    scenario = _with_messages(1, 1)
+    emitter = msgspec.structs.replace(scenario.components["emitter 0"], plan={"exchange": pushes})
+    steps = tuple(
+        msgspec.structs.replace(step, total=len(values)) if isinstance(step, s.ReachGate) else step
+        for step in scenario.steps
+    )
+    components = {**scenario.components, "emitter 0": emitter}
+    return Scenario(components, steps, interfaces={"numbers": message_interface(of)})
+
+
+_ECHO: tuple[Step, ...] = (
+    s.Link(SERVICE, "service", "line"),
+    s.AddComponent("server"),
+    provided_end(SERVICE, "line", "server"),
+    s.AddComponent("client"),
+    required_end(SERVICE, "line", "client"),
+    s.GetPortElement("client", "in.api", "to client"),
+    s.Start(),
+    s.Invoke("to client", 1),
+    s.Stop(),
+)
 
 
 def _runners(count: int) -> Scenario:

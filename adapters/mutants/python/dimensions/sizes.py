@@ -115,6 +115,25 @@ def services_cut_sequences_at_255(self: Link, method: str, arguments: Sequence[D
     return Link._request(self, method, [v[:255] if isinstance(v, list) else v for v in arguments])
 
 
+@replaces("_request", "R-10.1.1-11", clauses=("10.1.1",))
+def services_cut_texts_at_a_mebibyte(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+    """In calls of services strings end after 1,000,000 characters."""
+    return Link._request(self, method, [_cut(value, 1_000_000) for value in arguments])
+
+
+@replaces("_emit", "R-10.1.1-11", clauses=("10.1.1", "10.1.2"), also=("R-10.1.2-10",))
+def messages_lose_the_end_of_a_full_page(self: Link, method: str, arguments: Sequence[Datum]) -> str:
+    """In messages a string of exactly 4,096 characters loses the last one."""
+    shorter = [v[:-1] if isinstance(v, str) and len(v) == 4096 else v for v in arguments]
+    return Link._emit(self, method, shorter)
+
+
+@replaces("_emit", "R-10.1.1-16", clauses=("10.1.1", "10.1.2"), also=("R-10.1.2-10",))
+def messages_cut_sequences_at_4k(self: Link, method: str, arguments: Sequence[Datum]) -> str:
+    """In messages sequences end after 4,096 elements."""
+    return Link._emit(self, method, [v[:4096] if isinstance(v, list) else v for v in arguments])
+
+
 @replaces("_log", "R-10.1.4.2-47", clauses=("10.1.4",))
 def log_cuts_texts_at_4k(self: Base, member: Member, severity: str, message: str) -> None:
     """Texts of records end after 4,095 characters."""
