@@ -36,7 +36,7 @@ def misfit(of: d.AnyType, value: object) -> str:
             return _misfit_of_array(of.of, of.sizes, value)
         case d.Sequence():
             if not isinstance(value, list):
-                return f"{told(value, _LONGEST)} is no list"
+                return f"{printed(value, _LONGEST)} is no list"
             if 0 <= of.size < len(value):
                 return f"{len(value)} elements are more than {of.size}"
             return _misfit_of_elements(of.of, value)
@@ -61,7 +61,7 @@ def _misfit_of_scalar(of: d.AnyType, value: object) -> str:
             return _misfit_of_string(of, value)
         case _:
             fits = False
-    return "" if fits else f"{told(value, _LONGEST)} is no {kind_name(of)}"
+    return "" if fits else f"{printed(value, _LONGEST)} is no {kind_name(of)}"
 
 
 def _is_integer(value: object, low: int, high: int) -> bool:
@@ -82,7 +82,7 @@ def is_nan(of: d.Float, value: str) -> bool:
 
 def _misfit_of_string(of: d.String, value: object) -> str:
     if not isinstance(value, str):
-        return f"{told(value, _LONGEST)} is no string"
+        return f"{printed(value, _LONGEST)} is no string"
     if 0 <= of.size < len(value):
         return f"{len(value)} characters are more than {of.size}"
     wrong = {c for c in set(value) if not 0 < ord(c) <= _LARGEST[of.base] or ord(c) in _SURROGATES}
@@ -92,7 +92,7 @@ def _misfit_of_string(of: d.String, value: object) -> str:
 
 def _misfit_of_structure(of: d.Structure, value: object) -> str:
     if not isinstance(value, list) or len(value) != len(of.fields):
-        return f"{told(value, _LONGEST)} has not the {len(of.fields)} fields of {of.name}"
+        return f"{printed(value, _LONGEST)} has not the {len(of.fields)} fields of {of.name}"
     for (name, field), one in zip(of.fields.items(), value, strict=True):
         problem = misfit(field, one)
         if problem:
@@ -102,17 +102,17 @@ def _misfit_of_structure(of: d.Structure, value: object) -> str:
 
 def _misfit_of_union(of: d.Union, value: object) -> str:
     if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], str):
-        return f"{told(value, _LONGEST)} is not [enumerator, value]"
+        return f"{printed(value, _LONGEST)} is not [enumerator, value]"
     case = case_of(of, value[0])
     if case is None:
-        return f"{of.name} has no case for {told(value[0], _LONGEST)}"
+        return f"{of.name} has no case for {printed(value[0], _LONGEST)}"
     problem = misfit(case.of, value[1])
     return f"{case.name}: {problem}" if problem else ""
 
 
 def _misfit_of_array(of: d.AnyType, sizes: tuple[int, ...], value: object) -> str:
     if not isinstance(value, list) or len(value) != sizes[0]:
-        return f"{told(value, _LONGEST)} has not {sizes[0]} elements"
+        return f"{printed(value, _LONGEST)} has not {sizes[0]} elements"
     if len(sizes) == 1:
         return _misfit_of_elements(of, value)
     problems = (
@@ -179,7 +179,7 @@ def spell(value: d.Datum) -> str:
     return msgspec.json.encode(value).decode()
 
 
-def told(value: object, longest: int = 0) -> str:
+def printed(value: object, longest: int = 0) -> str:
     """A value for people, spelled as in scenarios and reports; of one with more than ``longest`` characters the beginning and the
     length, unless ``longest`` is 0.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Timeout
 from ucm_cts.reference_models.model.links import End
 from ucm_cts.reference_models.model.method_calls import MethodCall
@@ -141,7 +141,7 @@ def overdue(runtime: ObservedRuntime, timeout: Timeout) -> Iterator[tuple[Method
 def name_of(call: MethodCall) -> str:
     """The message, as findings name it."""
     emitter = call.caller.lane if call.caller is not None else call.request.component
-    values = told(call.request.arguments or ())
+    values = printed(call.request.arguments or ())
     return f"{values if len(values) <= _LONGEST else f'{values[:_LONGEST]}…'} of {emitter}"
 
 

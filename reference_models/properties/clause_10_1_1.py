@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Datum, Float
-from ucm_cts.adapters.contract.data_values import kind_name, misfit, told
+from ucm_cts.adapters.contract.data_values import kind_name, misfit, printed
 from ucm_cts.adapters.contract.trace import Raise, Return
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken
 from ucm_cts.reference_models.findings import Finding
@@ -89,7 +89,7 @@ def shown(of: AnyType, value: object) -> str:
     """``value`` for people, not too long."""
     if isinstance(of, Float) and isinstance(value, str) and not misfit(of, value):
         return f"{value} ({_number(of, value)!r})"
-    return told(value, _LONGEST)
+    return printed(value, _LONGEST)
 
 
 @property_at("closed", *transport.REQUIREMENTS)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Raise, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
@@ -300,4 +300,4 @@ def _answer(call: MethodCall) -> str:
         return "there was no answer"
     if call.reply.failed:
         return f"it ended with exception {call.reply.exception or ''}".rstrip()
-    return f"the answer was {', '.join(map(told, call.reply.results or ())) or 'nothing'}"
+    return f"the answer was {', '.join(map(printed, call.reply.results or ())) or 'nothing'}"

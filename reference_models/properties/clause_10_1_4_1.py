@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Raise
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Finding
@@ -38,7 +38,7 @@ def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -
     return check.fail(
         f"{method} {'raises' if reply.failed else 'no time'}",
         expected=f"{method} tells '{caller.lane}' the time",
-        observed="it raised" if reply.failed else f"it gave {told(reply.results or ())}",
+        observed="it raised" if reply.failed else f"it gave {printed(reply.results or ())}",
         at=(call.request.n, reply.n),
     )
 

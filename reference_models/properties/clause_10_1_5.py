@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Raise, Reply, Return
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Arrow, Finding
@@ -155,7 +155,7 @@ def _outcome(one: ServiceCall) -> object:
 
 
 def _values(values: object) -> str:
-    return told(values) if isinstance(values, tuple) else "nothing"
+    return printed(values) if isinstance(values, tuple) else "nothing"
 
 
 @property_at("closed", _EXCEPTIONS)

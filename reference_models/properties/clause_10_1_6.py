@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Raise, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
@@ -144,7 +144,7 @@ def message_origin(check: Property, runtime: ObservedRuntime) -> Conclusions:
         yield check.fail(
             "another connection" if elsewhere else "invented",
             expected=f"{receiver.lane} gets what emitters of its connection pushed, and nothing else",
-            observed=f"it got {told(enter.arguments or ())}, {what}",
+            observed=f"it got {printed(enter.arguments or ())}, {what}",
             at=(enter.n,),
         )
 

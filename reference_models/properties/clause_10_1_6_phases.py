@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Raise, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.model import messages as msg
@@ -35,7 +35,7 @@ def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery
     return check.fail(
         when,
         expected=f"{receiver.lane} gets messages in its operational phase only",
-        observed=f"{told(delivery.enter.arguments or ())} entered it {when}",
+        observed=f"{printed(delivery.enter.arguments or ())} entered it {when}",
         at=(delivery.enter.n,),
     )
 

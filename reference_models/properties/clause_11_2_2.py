@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Reference, Return
 from ucm_cts.reference_models.conclusions import Broken, Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
@@ -118,7 +118,7 @@ def _identifier(check: Property, ongoing: OperationInProgress, end: Return, live
     unique, in_range = check.stands_for
     value = end.value
     if not isinstance(value, int) or not _SMALLEST <= value <= _LARGEST:
-        text = f"{ongoing.what} returned {told(value)}"
+        text = f"{ongoing.what} returned {printed(value)}"
         expected = f"a {kind} id that fits in 32 bits"
         return check.fail("range", expected=expected, observed=text, event=end, requirement=in_range)
     if value in live:

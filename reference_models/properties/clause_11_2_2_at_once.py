@@ -17,13 +17,13 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _UNIQUE, _LISTED = "R-11.2.2.1-03", "R-11.2.2.1-14"
-_TOLD: dict[s.Hook, tuple[str, str]] = {
+_CALLBACKS: dict[s.Hook, tuple[str, str]] = {
     "on_init": ("add_component", "R-11.2.3-05"),
     "on_remove": ("remove_component", "R-11.2.1.2-06"),
     "on_connect": ("connect", "R-11.2.1.3-02"),
     "on_disconnect": ("disconnect", "R-11.2.1.3-05"),
 }
-"""The callbacks that each operation brings one of, and the requirement that says so."""
+"""By callback: the operation that brings one, and the requirement that says so."""
 
 _CONFIGURE = (s.AddComponent, s.RemoveComponent, s.Connect, s.Disconnect)
 
@@ -42,15 +42,15 @@ class _Observed:
     """What a trace of overlapping operations holds.
 
     ``done``: the operations that change the configuration; ``listings``: get_components, after all of them.
-    ``told``: how often bodies were entered, by hook.
+    ``callbacks``: how often bodies were entered, by hook.
     """
 
     done: list[_Done] = field(default_factory=list)
     listings: list[tuple[s.GetComponents, Return]] = field(default_factory=list)
-    told: Counter[str] = field(default_factory=Counter)
+    callbacks: Counter[str] = field(default_factory=Counter)
 
 
-@property_at("overlapped", _LISTED, _UNIQUE, *(requirement for _, requirement in _TOLD.values()))
+@property_at("overlapped", _LISTED, _UNIQUE, *(requirement for _, requirement in _CALLBACKS.values()))
 def operations_at_once(check: Property, runtime: ObservedRuntime, trace: Sequence[Event]) -> Conclusions:
     """Components are added, connected and removed at once as if it were done one by one: nothing is lost or done twice."""
     if runtime.ics.reading("container-operations") != "at-once":
@@ -63,17 +63,17 @@ def operations_at_once(check: Property, runtime: ObservedRuntime, trace: Sequenc
         return
     yield from _identified(check, seen)
     yield from _listed(check, seen)
-    for hook, (operation, requirement) in _TOLD.items():
+    for hook, (operation, requirement) in _CALLBACKS.items():
         wanted = sum(s.operation(done.step) == operation for done in seen.done)
-        if hook in ("on_connect", "on_disconnect") and not seen.told[hook]:
+        if hook in ("on_connect", "on_disconnect") and not seen.callbacks[hook]:
             continue  # bodies that are not Connectable
-        if wanted and seen.told[hook] == wanted:
+        if wanted and seen.callbacks[hook] == wanted:
             yield check.kept(requirement)
         elif wanted:
             yield check.fail(
                 f"{hook} at once",
                 expected=f"{wanted} {hook} by so many {operation} at once",
-                observed=f"there were {seen.told[hook]}",
+                observed=f"there were {seen.callbacks[hook]}",
                 at=tuple(d.begin.n for d in seen.done if s.operation(d.step) == operation)[:2],
                 requirement=requirement,
             )
@@ -82,7 +82,7 @@ def operations_at_once(check: Property, runtime: ObservedRuntime, trace: Sequenc
 def _observe(scenario: s.Scenario, trace: Sequence[Event]) -> _Observed:
     begun = {event.step: event for event in trace if isinstance(event, Call)}
     ended = {event.step: event for event in trace if isinstance(event, Return | Raise)}
-    seen = _Observed(told=Counter(event.hook for event in trace if isinstance(event, Enter)))
+    seen = _Observed(callbacks=Counter(event.hook for event in trace if isinstance(event, Enter)))
     for number, begin in begun.items():
         if isinstance(scenario.steps[number], _CONFIGURE):
             seen.done.append(_Done(scenario.steps[number], begin, ended.get(number)))
@@ -97,13 +97,13 @@ def _observe(scenario: s.Scenario, trace: Sequence[Event]) -> _Observed:
 def _refused(check: Property, seen: _Observed) -> Conclusions:
     for done in seen.done:
         if isinstance(done.end, Raise):
-            hook = next(hook for hook, (operation, _) in _TOLD.items() if operation == s.operation(done.step))
+            hook = next(hook for hook, (operation, _) in _CALLBACKS.items() if operation == s.operation(done.step))
             yield check.refused(
                 designation(done.step),
                 done.end,
                 expected=f"{s.operation(done.step)} succeeds beside others, as declared",
                 cause=f"{error_name(done.end.error)} at once",
-                requirement=_TOLD[hook][1],
+                requirement=_CALLBACKS[hook][1],
             )
             return
 

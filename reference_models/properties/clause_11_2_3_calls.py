@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_values import told
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
@@ -59,9 +59,11 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         expected = f"the reference that get_port_element gave for {port} runs {member.lane}'s {port}"
         yield _violate(check, _OWN_ELEMENT, "another port", expected, observed, call.n, end.n, member)
         return
-    observed = f"the body received {told(enter.value)}, returned {told(result)}, the caller got {told(end.value)}"
+    observed = (
+        f"the body received {printed(enter.value)}, returned {printed(result)}, the caller got {printed(end.value)}"
+    )
     if exit_ is None:
-        observed = f"the caller got {told(end.value)} before the body had returned"
+        observed = f"the caller got {printed(end.value)} before the body had returned"
     if len(own) > 1:
         observed = f"the body was entered {len(own)} times"
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
@@ -98,7 +100,7 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
         observed = f"it reached {where}"
     elif not came_back:
         left = reached[0][1]
-        got, gave = told(reply.value), told(left.value if left is not None else None)
+        got, gave = printed(reply.value), printed(left.value if left is not None else None)
         observed = f"the body returned {gave}, the caller got {got}"
         if left is None:
             observed = f"the caller got {got} before the body had returned"

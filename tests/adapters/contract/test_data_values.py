@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ucm_cts.adapters.contract import data_types as d
-from ucm_cts.adapters.contract.data_values import misfit, told
+from ucm_cts.adapters.contract.data_values import misfit, printed
 
 
 @pytest.mark.parametrize(
@@ -21,13 +21,13 @@ from ucm_cts.adapters.contract.data_values import misfit, told
     ],
 )
 def test_a_value_is_told_as_scenarios_spell_it(value: object, text: str) -> None:
-    assert told(value) == text
+    assert printed(value) == text
 
 
 def test_of_a_long_value_the_beginning_and_the_length_are_told() -> None:
-    assert told("a" * 100, 30) == '"aaaaaaaaa… (100 characters)'
-    assert told([True] * 10, 30) == "[true, tru… (60 characters)"
-    assert told("a" * 28, 30) == f'"{"a" * 28}"'
+    assert printed("a" * 100, 30) == '"aaaaaaaaa… (100 characters)'
+    assert printed([True] * 10, 30) == "[true, tru… (60 characters)"
+    assert printed("a" * 28, 30) == f'"{"a" * 28}"'
 
 
 def test_what_does_not_fit_is_told_likewise() -> None:
