@@ -80,6 +80,8 @@ class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
     ``component``: the declaration to instantiate; one that the scenario does not declare asks for an unknown implementation.
     ``container``: where.
     ``bind``: variable for the id; by default the name of the component.
+    ``attributes``: values that configure this instance in place of those of the declaration, or beside them. A name that
+    the declaration does not have is a configuration value that means nothing to the implementation.
     """
 
     returns = "id"
@@ -87,10 +89,13 @@ class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
     component: Annotated[str, Names("implementation")]
     container: UsedContainer = MANAGER
     bind: Annotated[str, Binds("component", "component")] = ""
+    attributes: Annotated[dict[str, str], Names("attribute")] = {}
 
     def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
-        """``as`` only where the variable has a name of its own."""
-        return self.component + (f" as {self.bind}" if self.bind not in ("", self.component) else "")
+        """``as`` only where the variable has a name of its own, and the values that are this instance's alone."""
+        own = ", ".join(f"{name}={value}" for name, value in self.attributes.items())
+        named = self.component + (f" as {self.bind}" if self.bind not in ("", self.component) else "")
+        return f"{named} with {own}" if own else named
 
 
 class RemoveComponent(StepBase, frozen=True, tag_field="op", tag="remove_component"):

@@ -142,6 +142,7 @@ class Implementation:
     ``provides``: provided port elements.
     ``requires``: required port elements. ``on_startup`` also gets those of policies, as ``policy.element``; they have ``call``.
     ``attributes``: attribute names.
+    ``defaults``: the default value of each attribute that has one.
     ``connectable``: the bodies implement Connectable.
     ``fragment``: the bodies implement FragmentObject.
     ``create``: makes a body.
@@ -158,3 +159,4 @@ class Implementation:
     create: Callable[[], ComponentObject]
     policies: Sequence[Policy] = ()
     interfaces: Mapping[str, Interface] = field(default_factory=dict)
+    defaults: Mapping[str, str] = field(default_factory=dict)

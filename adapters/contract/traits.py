@@ -18,8 +18,12 @@ from ucm_cts.adapters.contract.value import Value
 Kind = Literal["link", "container", "component", "reference", "connection"]
 """The kinds of things that variables hold."""
 
-Subject = Literal["implementation", "component", "port element", "interface", "gate", "worker", "method", "payload"]
-"""What a field may refer to beside variables. An ``implementation`` need not be declared, a ``component`` must be."""
+Subject = Literal[
+    "implementation", "component", "port element", "interface", "gate", "worker", "method", "payload", "attribute"
+]
+"""What a field may refer to beside variables. An ``implementation`` need not be declared, a ``component`` must be; for
+``attribute`` the field holds values by name.
+"""
 
 
 @dataclass(frozen=True)

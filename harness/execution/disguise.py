@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 import re
 import string
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 import msgspec
@@ -135,13 +135,17 @@ class Disguise:
         return Declaration(
             tuple(map(self._port, d.provides)),
             tuple(map(self._port, d.requires)),
-            {self._name(name): self._configured(value) for name, value in d.attributes.items()},
+            self._attributes(d.attributes),
             d.connectable,
             d.fragment,
             {hook: tuple(map(self._action, actions)) for hook, actions in d.plan.items()},
             tuple(map(self._policy, d.policies)),
             {self._port(port): self._name(interface) for port, interface in d.ports.items()},
+            self._attributes(d.defaults),
         )
+
+    def _attributes(self, values: Mapping[str, str]) -> dict[str, str]:
+        return {self._name(name): self._configured(value) for name, value in values.items()}
 
     def _configured(self, plain: str) -> str:
         """Only words are disguised: some frameworks parse values of types, and other texts are there for what they look like."""
@@ -180,7 +184,7 @@ class Disguise:
 
     def _named(self, value: S) -> S:
         """A step or an action in disguise. Variables, gates and workers keep their names, because no framework sees them."""
-        changed: dict[str, str | int] = {}
+        changed: dict[str, str | int | dict[str, str]] = {}
         for field, trait in fields(type(value)):
             plain = getattr(value, field)
             match trait:
@@ -194,6 +198,8 @@ class Disguise:
                     changed[field] = self._method(plain)
                 case Names("payload"):
                     changed[field] = self._value(plain)
+                case Names("attribute"):
+                    changed[field] = self._attributes(plain)
         return msgspec.structs.replace(value, **changed)
 
 

@@ -79,6 +79,8 @@ def _plainer(declaration: Declaration) -> Iterator[Declaration]:
         yield msgspec.structs.replace(declaration, fragment=False)
     if declaration.attributes:
         yield msgspec.structs.replace(declaration, attributes={})
+    if declaration.defaults:
+        yield msgspec.structs.replace(declaration, defaults={})
 
 
 def _without_port(scenario: Scenario, component: str, port: str) -> Iterator[Scenario]:

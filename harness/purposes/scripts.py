@@ -30,6 +30,7 @@ class Part(Value, frozen=True):
     ``plan``: the actions of the body in each hook.
     ``policies``: technical policies.
     ``ports``: the interface of each port element that has one, by name.
+    ``defaults``: default values of attributes that are not configured, by attribute name.
     """
 
     probe: str = ""
@@ -41,6 +42,7 @@ class Part(Value, frozen=True):
     plan: dict[Hook, tuple[Action, ...]] = {}
     policies: tuple[Policy, ...] = ()
     ports: dict[str, str] = {}
+    defaults: dict[str, str] = {}
 
 
 class Script(Value, frozen=True):
@@ -138,6 +140,7 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             plan=part.plan,
             policies=part.policies,
             ports=part.ports,
+            defaults=part.defaults,
         )
     return Scenario(components, script.steps, script.patience, _interfaces_of(script), script.may_stay)
 
@@ -158,9 +161,12 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
         if part.probe and part.probe not in probes:
             found.append((f"{where}.probe", f"no probe '{part.probe}'; there are {', '.join(sorted(probes))}"))
         elif part.probe:
-            unknown = [a for a in part.attributes if a not in probes[part.probe].attributes]
+            unknown = [a for a in (*part.attributes, *part.defaults) if a not in probes[part.probe].attributes]
             if unknown:
                 found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
+        twice = [a for a in part.attributes if a in part.defaults]
+        if twice:
+            found.append((f"{where}.defaults", f"'{twice[0]}' is configured; leave it out, or configure it in a step"))
         strange = [i for i in part.ports.values() if i not in interfaces]
         if strange:
             found.append((f"{where}.ports", f"no interface '{strange[0]}'; there are {_list(interfaces)}"))

@@ -108,6 +108,8 @@ class RowSelection:
             ongoing.forgiving = (
                 True  # whether it may be refused is the matter of policy_supported and execution_policy_given
             )
+        if declaration is not None and not step.attributes.keys() <= {*declaration.attributes, *declaration.defaults}:
+            ongoing.forgiving = True  # values that mean nothing are refused or left alone
         self._role(ongoing, None, "absent", condition)
 
     def _remove(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.RemoveComponent) -> None:

@@ -29,22 +29,49 @@ _SHOWN = 3
 def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """On entry to on_init the body holds the configured attribute values."""
     event = callback.event
-    if callback.history.initialised:
-        return
     declaration = runtime.scenario.components.get(event.component)
-    if declaration is None or not declaration.attributes:
+    configured = _values(declaration, callback) if declaration is not None else {}
+    if callback.history.initialised or not configured:
         return
     held = event.attributes or {}
-    wrong = [a for a, value in declaration.attributes.items() if not _is_configured(held.get(a), value)]
+    wrong = [a for a, value in configured.items() if not _is_configured(held.get(a), value)]
     if not wrong:
         yield check.kept()
     else:
-        yield _holds_others(check, _BEFORE_INIT, declaration, wrong, callback)
-    typed = {a for a, value in declaration.attributes.items() if read_spelled(value) is not None}
+        yield _holds_others(check, _BEFORE_INIT, configured, wrong, callback)
+    typed = {a for a, value in configured.items() if read_spelled(value) is not None}
     if typed and not typed.intersection(wrong):
         yield check.kept(_ATTRIBUTES)
     elif typed:
-        yield _holds_others(check, _ATTRIBUTES, declaration, [a for a in wrong if a in typed], callback)
+        yield _holds_others(check, _ATTRIBUTES, configured, [a for a in wrong if a in typed], callback)
+
+
+@property_at("entered", "R-9.2.7.4-04", at=("on_init",), feature="attributes")
+def default_values(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
+    """On entry to on_init attributes that were not configured have their default values (attribute-defaults)."""
+    declaration = runtime.scenario.components.get(callback.event.component)
+    if callback.history.initialised or declaration is None or runtime.ics.reading("attribute-defaults") != "set":
+        return ()
+    configured, held = _values(declaration, callback), callback.event.attributes or {}
+    due = {name: value for name, value in declaration.defaults.items() if name not in configured}
+    wrong = [name for name, value in due.items() if not _is_configured(held.get(name), value)]
+    if not due:
+        return ()
+    return _holds_others(check, "R-9.2.7.4-04", due, wrong, callback) if wrong else check.kept()
+
+
+def _given(callback: Callback) -> dict[str, str]:
+    """The values that are given to the instance alone that ``callback`` enters."""
+    step = callback.ongoing.step if callback.ongoing is not None else None
+    if isinstance(step, s.AddComponent) and step.component == callback.event.component:
+        return step.attributes
+    return {}
+
+
+def _values(declaration: s.Declaration, callback: Callback) -> dict[str, str]:
+    """The values that configure the attributes of the instance that ``callback`` enters, whose type is ``declaration``."""
+    known = {*declaration.attributes, *declaration.defaults}
+    return {**declaration.attributes, **{name: value for name, value in _given(callback).items() if name in known}}
 
 
 @property_at("entered", "R-11.2.3-19", at=("on_init",))
@@ -55,7 +82,8 @@ def own_attributes_only(check: Property, runtime: ObservedRuntime, callback: Cal
     if callback.history.initialised or declaration is None:
         return ()
     held = event.attributes or {}
-    extra = [name for name, value in held.items() if name not in declaration.attributes and not _is_default(value)]
+    asked = {*declaration.attributes, *declaration.defaults, *_given(callback)}
+    extra = [name for name, value in held.items() if name not in asked and not _is_default(value)]
     if not extra:
         return check.kept()
     has = ", ".join(list(declaration.attributes)[:_SHOWN]) or "none"
@@ -84,12 +112,12 @@ def _brief(value: str) -> str:
 
 
 def _holds_others(
-    check: Property, requirement: str, declaration: s.Declaration, wrong: list[str], callback: Callback
+    check: Property, requirement: str, due: dict[str, str], wrong: list[str], callback: Callback
 ) -> Finding:
     held, some = callback.event.attributes or {}, wrong[:_SHOWN]
     return check.fail(
         "missing" if all(a not in held for a in wrong) else "another value",
-        expected="on_init finds " + ", ".join(f"{a}={_brief(declaration.attributes[a])}" for a in some),
+        expected="on_init finds " + ", ".join(f"{a}={_brief(due[a])}" for a in some),
         observed="on_init found " + ", ".join(f"{a}={_brief(held[a])}" if a in held else f"{a} unset" for a in some),
         during=(callback.ongoing, callback.event),
         requirement=requirement,

@@ -62,6 +62,6 @@ def features_of(scenario: s.Scenario) -> frozenset[Feature]:
             features.update(("policies", "interactions"))
         if declaration.fragment:
             features.add("fragments")
-        if declaration.attributes:
+        if declaration.attributes or declaration.defaults:
             features.add("attributes")
     return frozenset(features)

@@ -71,6 +71,7 @@ MODULES = {
         "aftermath",
         "at_once",
         "callers",
+        "configured",
         "counts",
         "counts_of_connectors",
         "early",

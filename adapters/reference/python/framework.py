@@ -163,7 +163,7 @@ class Container(OffersServices, UsesConnectors):
         self._initialise(member)
 
     def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
-        for name, value in attributes.items():
+        for name, value in {**member.implementation.defaults, **attributes}.items():
             member.body.set_attribute(name, value)
 
     def _initialise(self, member: Member) -> None:

@@ -55,7 +55,9 @@ class Operations(metaclass=KeptClass):
     def _add_component(self, step: s.AddComponent) -> Callable[[], Any]:
         container = self._variables.container(step.container)
         declaration = self._scenario.components.get(step.component)
-        attributes = dict(declaration.attributes) if declaration else {}
+        attributes = dict(step.attributes)
+        for name, value in declaration.attributes.items() if declaration else ():
+            attributes.setdefault(name, value)
 
         def operate() -> int:
             given = _integer(self._adapter.add_component(container, step.component, attributes))

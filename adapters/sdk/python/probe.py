@@ -51,12 +51,13 @@ class Stage(Kept):
             name,
             declaration.provides,
             declaration.requires,
-            tuple(declaration.attributes),
+            (*declaration.attributes, *declaration.defaults),
             declaration.connectable,
             declaration.fragment,
             lambda: kind(self, name, declaration),
             declaration.policies,
             {port: interfaces[interface] for port, interface in declaration.ports.items()},
+            declaration.defaults,
         )
 
     @contextmanager

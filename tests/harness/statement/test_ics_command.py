@@ -58,7 +58,8 @@ def test_a_short_statement_has_what_differs_and_what_must_be_decided(here: Path)
     assert ucm_cts("ics", ADAPTER).status == 0
     text = (here / "ucm-cts-ics.toml").read_text()
     short = tomllib.loads(text)
-    undecided = {"core-models": "shipped", "unknown-policy": "unasked", "incompatible-ends": "unasked"}
+    asked = dict.fromkeys(("unknown-policy", "incompatible-ends", "attribute-defaults"), "unasked")
+    undecided = {"core-models": "shipped"} | asked
     assert short["readings"] == dict.fromkeys(HOOKS, "hook") | undecided
     assert (short["profiles"], short["models"]) == (["container", "core"], {"core": []})
     assert short.keys() == {"product", "version", "profiles", "readings", "models"}

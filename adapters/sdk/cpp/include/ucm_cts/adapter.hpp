@@ -131,7 +131,7 @@ class Body {
 
 /// A component implementation the framework shall be able to instantiate. Its bodies may outlive the scenario.
 /// `policies` are the technical policies that the container has to apply (10.1.3, 10.1.4). `interfaces` are those of the
-/// port elements that have one; the others have `exchange`.
+/// port elements that have one; the others have `exchange`. `defaults` are those of the attributes that have one (9.2.7.4).
 ///
 /// The port element that a component requires by a policy is handed over in `on_startup` like any other, under the name
 /// `policy.element`, and takes `call`.
@@ -145,6 +145,7 @@ struct Implementation {
     std::function<std::shared_ptr<Body>()> create;
     std::vector<Policy> policies;
     Interfaces interfaces;
+    Attributes defaults;
 };
 
 /// The object that the adapter uses for a container.

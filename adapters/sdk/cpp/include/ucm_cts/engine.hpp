@@ -77,6 +77,9 @@ class Engine : public std::enable_shared_from_this<Engine> {
             for (const auto& attribute : declaration.attributes) {
                 attributes.push_back(attribute.first);
             }
+            for (const auto& attribute : declaration.defaults) {
+                attributes.push_back(attribute.first);
+            }
             const Component* const what = &component;
             const std::shared_ptr<Stage> stage = stage_;
             const std::shared_ptr<const Scenario> scenario = scenario_;
@@ -90,7 +93,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
                                          [what, stage, scenario, configuration] {
                                              return make(*what, stage, scenario, *configuration);
                                          },
-                                         declaration.policies, std::move(interfaces)});
+                                         declaration.policies, std::move(interfaces), declaration.defaults});
         }
         return all;
     }

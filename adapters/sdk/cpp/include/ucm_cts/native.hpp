@@ -50,7 +50,7 @@ inline Implementation native_implementation(const std::string& name, const std::
                                             const std::vector<std::string>& required) {
     return Implementation{name,  provided, required, std::vector<std::string>(), false, false,
                           [provided] { return std::make_shared<NativeBody>(provided); }, std::vector<Policy>(),
-                          Interfaces()};
+                          Interfaces(), Attributes()};
 }
 
 /// The Container API of a runtime's root container, call by call.

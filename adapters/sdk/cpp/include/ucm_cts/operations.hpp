@@ -155,8 +155,11 @@ class Operations {
         switch (step.kind) {
             case Operation::add_component: {
                 const Declaration* const declaration = declared(step.component);
-                const Id id = adapter_->add_component(
-                    with.container, step.component, declaration != nullptr ? declaration->attributes : Attributes());
+                Attributes attributes = step.attributes;
+                if (declaration != nullptr) {
+                    attributes.insert(declaration->attributes.begin(), declaration->attributes.end());
+                }
+                const Id id = adapter_->add_component(with.container, step.component, attributes);
                 variables_.bind_id(step.bind.empty() ? step.component : step.bind, id);
                 return returned(number, id);
             }

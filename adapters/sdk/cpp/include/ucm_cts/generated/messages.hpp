@@ -119,6 +119,7 @@ struct Policy {
 /// `plan`: the actions of the probe in each hook, each time it is entered there.
 /// `policies`: technical policies.
 /// `ports`: the interface of each port element that has one, by name.
+/// `defaults`: default values (9.2.7.4) of attributes that are not configured, by attribute name.
 struct Declaration {
     std::vector<std::string> provided;
     std::vector<std::string> required;
@@ -128,6 +129,7 @@ struct Declaration {
     std::map<Hook, std::vector<Action>> plan;
     std::vector<Policy> policies;
     std::map<std::string, std::string> ports;
+    std::map<std::string, std::string> defaults;
 };
 
 enum class StepKind {
@@ -159,6 +161,9 @@ struct Step {
 
     /// Of add_component, get_port_element, connect, create_container, link.
     std::string bind;
+
+    /// Of add_component.
+    std::map<std::string, std::string> attributes;
 
     /// Of all.
     std::string thread;

@@ -93,6 +93,7 @@ inline void read(const json::Value& value, Declaration& into) {
     fields.optional("plan", into.plan);
     fields.optional("policies", into.policies);
     fields.optional("ports", into.ports);
+    fields.optional("defaults", into.defaults);
     fields.end();
 }
 
@@ -124,6 +125,7 @@ inline void read_members(json::Fields& fields, Step& into) {
             fields.required("component", into.component);
             fields.optional("container", into.container);
             fields.optional("bind", into.bind);
+            fields.optional("attributes", into.attributes);
             break;
         case Step::Kind::remove_component:
             fields.required("id", into.id);

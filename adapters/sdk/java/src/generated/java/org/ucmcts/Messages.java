@@ -169,7 +169,8 @@ final class Messages {
             may("fragment", FLAG, false),
             may("plan", map(HOOK, list(Messages::readAction)), new Node(Map.of())),
             may("policies", list(Messages::readPolicy), List.of()),
-            may("ports", map(TEXT, TEXT), new Node(Map.of())));
+            may("ports", map(TEXT, TEXT), new Node(Map.of())),
+            may("defaults", map(TEXT, TEXT), new Node(Map.of())));
 
     /**
      * A component implementation that the framework must be able to instantiate: a probe body and its plan.
@@ -182,6 +183,7 @@ final class Messages {
      * `plan`: the actions of the probe in each hook, each time it is entered there.
      * `policies`: technical policies.
      * `ports`: the interface of each port element that has one, by name.
+     * `defaults`: default values (9.2.7.4) of attributes that are not configured, by attribute name.
      */
     static final class Declaration extends Node {
         private Declaration(Map<String, Object> fields) {
@@ -219,6 +221,10 @@ final class Messages {
         Map<String, String> ports() {
             return as(node("ports").fields());
         }
+
+        Map<String, String> defaults() {
+            return as(node("defaults").fields());
+        }
     }
 
     static Object readDeclaration(Object value, String place) throws Misfit {
@@ -230,6 +236,7 @@ final class Messages {
                     needs("component", TEXT),
                     may("container", TEXT, "manager"),
                     may("bind", TEXT, ""),
+                    may("attributes", map(TEXT, TEXT), new Node(Map.of())),
                     may("thread", orNull(TEXT), null)),
             new Kind("remove_component",
                     needs("id", TEXT),
@@ -359,6 +366,11 @@ final class Messages {
         /** Of add_component, get_port_element, connect, create_container, link. */
         String bind() {
             return text("bind");
+        }
+
+        /** Of add_component. */
+        Map<String, String> attributes() {
+            return as(node("attributes").fields());
         }
 
         /** Of all. */

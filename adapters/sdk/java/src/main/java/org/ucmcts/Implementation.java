@@ -16,6 +16,7 @@ import java.util.function.Supplier;
  * @param create makes a body; call it once for each instance
  * @param policies the technical policies that the container has to apply (10.1.3, 10.1.4)
  * @param interfaces the interfaces of the port elements that have one; the others have {@code exchange}
+ * @param defaults the default value of each attribute that has one (9.2.7.4)
  */
 public record Implementation(
         String name,
@@ -26,4 +27,5 @@ public record Implementation(
         boolean fragment,
         Supplier<Body> create,
         List<Policy> policies,
-        Map<String, Node> interfaces) {}
+        Map<String, Node> interfaces,
+        Map<String, String> defaults) {}

@@ -1,6 +1,7 @@
 package org.ucmcts;
 
 import java.util.ArrayList;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Objects;
@@ -185,7 +186,10 @@ final class Operations<C> {
         C container = container(step);
         String component = step.component();
         Declaration declaration = scenario.components().get(component);
-        Map<String, String> attributes = declaration == null ? Map.of() : declaration.attributes();
+        Map<String, String> attributes = new LinkedHashMap<>(step.attributes());
+        if (declaration != null) {
+            declaration.attributes().forEach(attributes::putIfAbsent);
+        }
         return () -> {
             int given = adapter.addComponent(container, component, attributes);
             variables.bindId(step.bind().isEmpty() ? component : step.bind(), given);

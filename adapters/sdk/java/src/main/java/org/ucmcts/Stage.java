@@ -1,5 +1,6 @@
 package org.ucmcts;
 
+import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -73,17 +74,20 @@ final class Stage {
             }
             typed.put(port, interfaces.get(type));
         });
+        List<String> attributes = new ArrayList<>(declaration.attributes().keySet());
+        attributes.addAll(declaration.defaults().keySet());
         return new Implementation(
                 name,
                 declaration.provides(),
                 declaration.requires(),
-                List.copyOf(declaration.attributes().keySet()),
+                attributes,
                 declaration.connectable(),
                 declaration.fragment(),
                 () -> Probe.make(this, name, declaration),
                 declaration.policies().stream()
                         .map(own -> new Policy(own.definition(), own.port(), own.parameters(), own.element()))
                         .toList(),
-                typed);
+                typed,
+                declaration.defaults());
     }
 }
