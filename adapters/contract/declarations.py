@@ -175,7 +175,7 @@ class Declaration(Value, frozen=True):
     ``plan``: the actions of the probe in each hook, each time it is entered there.
     ``policies``: technical policies.
     ``ports``: the interface of each port element that has one, by name.
-    ``defaults``: default values (9.2.7.4) of attributes that are not configured, by attribute name.
+    ``defaults``: default values (9.2.7.4) by attribute name; they hold for attributes that are not configured.
     """
 
     provides: tuple[PortElementName, ...] = ()
@@ -191,7 +191,3 @@ class Declaration(Value, frozen=True):
     def __post_init__(self) -> None:
         if len({*self.provides, *self.requires}) < len(self.provides) + len(self.requires):
             raise ValueError("a port element is declared twice")
-        if not self.attributes.keys().isdisjoint(self.defaults):
-            raise ValueError(
-                "an attribute with a configured value has a default, too; the step add_component may configure it"
-            )

@@ -30,7 +30,7 @@ class Part(Value, frozen=True):
     ``plan``: the actions of the body in each hook.
     ``policies``: technical policies.
     ``ports``: the interface of each port element that has one, by name.
-    ``defaults``: default values of attributes that are not configured, by attribute name.
+    ``defaults``: default values by attribute name; they hold for attributes that are not configured.
     """
 
     probe: str = ""
@@ -164,9 +164,6 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             unknown = [a for a in (*part.attributes, *part.defaults) if a not in probes[part.probe].attributes]
             if unknown:
                 found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
-        twice = [a for a in part.attributes if a in part.defaults]
-        if twice:
-            found.append((f"{where}.defaults", f"'{twice[0]}' is configured; leave it out, or configure it in a step"))
         strange = [i for i in part.ports.values() if i not in interfaces]
         if strange:
             found.append((f"{where}.ports", f"no interface '{strange[0]}'; there are {_list(interfaces)}"))

@@ -15,7 +15,7 @@ from ucm_cts.reference_models.properties.clause_11_2_2 import listing_problem
 from ucm_cts.reference_models.properties.clause_11_2_3 import outside_life
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_BEFORE_INIT, _ATTRIBUTES = "R-11.2.1.2-05", "R-10.1.1-06"
+_BEFORE_INIT, _ATTRIBUTES, _DEFAULTS = "R-11.2.1.2-05", "R-10.1.1-06", "R-9.2.7.4-04"
 
 _UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
 _LONGEST = 60
@@ -46,7 +46,7 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
         yield _holds_others(check, _ATTRIBUTES, configured, [a for a in wrong if a in typed], callback)
 
 
-@property_at("entered", "R-9.2.7.4-04", at=("on_init",), feature="attributes")
+@property_at("entered", _DEFAULTS, at=("on_init",), feature="attributes")
 def default_values(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """On entry to on_init attributes that were not configured have their default values (attribute-defaults)."""
     declaration = runtime.scenario.components.get(callback.event.component)
@@ -57,7 +57,7 @@ def default_values(check: Property, runtime: ObservedRuntime, callback: Callback
     wrong = [name for name, value in due.items() if not _is_configured(held.get(name), value)]
     if not due:
         return ()
-    return _holds_others(check, "R-9.2.7.4-04", due, wrong, callback) if wrong else check.kept()
+    return _holds_others(check, _DEFAULTS, due, wrong, callback) if wrong else check.kept()
 
 
 def _given(callback: Callback) -> dict[str, str]:

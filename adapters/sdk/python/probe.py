@@ -51,7 +51,7 @@ class Stage(Kept):
             name,
             declaration.provides,
             declaration.requires,
-            (*declaration.attributes, *declaration.defaults),
+            tuple({**declaration.attributes, **declaration.defaults}),
             declaration.connectable,
             declaration.fragment,
             lambda: kind(self, name, declaration),

@@ -78,7 +78,9 @@ class Engine : public std::enable_shared_from_this<Engine> {
                 attributes.push_back(attribute.first);
             }
             for (const auto& attribute : declaration.defaults) {
-                attributes.push_back(attribute.first);
+                if (declaration.attributes.count(attribute.first) == 0) {
+                    attributes.push_back(attribute.first);
+                }
             }
             const Component* const what = &component;
             const std::shared_ptr<Stage> stage = stage_;

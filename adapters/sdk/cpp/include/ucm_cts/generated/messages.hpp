@@ -119,7 +119,7 @@ struct Policy {
 /// `plan`: the actions of the probe in each hook, each time it is entered there.
 /// `policies`: technical policies.
 /// `ports`: the interface of each port element that has one, by name.
-/// `defaults`: default values (9.2.7.4) of attributes that are not configured, by attribute name.
+/// `defaults`: default values (9.2.7.4) by attribute name; they hold for attributes that are not configured.
 struct Declaration {
     std::vector<std::string> provided;
     std::vector<std::string> required;

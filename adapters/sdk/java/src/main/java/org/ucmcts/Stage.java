@@ -1,9 +1,10 @@
 package org.ucmcts;
 
-import java.util.ArrayList;
 import java.util.HashMap;
+import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import org.ucmcts.Messages.Declaration;
 import org.ucmcts.Messages.Scenario;
 
@@ -74,13 +75,13 @@ final class Stage {
             }
             typed.put(port, interfaces.get(type));
         });
-        List<String> attributes = new ArrayList<>(declaration.attributes().keySet());
+        Set<String> attributes = new LinkedHashSet<>(declaration.attributes().keySet());
         attributes.addAll(declaration.defaults().keySet());
         return new Implementation(
                 name,
                 declaration.provides(),
                 declaration.requires(),
-                attributes,
+                List.copyOf(attributes),
                 declaration.connectable(),
                 declaration.fragment(),
                 () -> Probe.make(this, name, declaration),
