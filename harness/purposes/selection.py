@@ -20,7 +20,7 @@ from ucm_cts.harness.purposes.provocations.container_contention import container
 from ucm_cts.harness.purposes.provocations.contention import contention_purposes, service_contention_purposes
 from ucm_cts.harness.purposes.provocations.core_boundaries import core_boundary_purposes
 from ucm_cts.harness.purposes.provocations.later_use import later_use_purposes
-from ucm_cts.harness.purposes.provocations.purposes import duration_purposes, provocation_purposes
+from ucm_cts.harness.purposes.provocations.purposes import duration_purposes, provocation_purposes, run_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
 from ucm_cts.harness.purposes.systematic.purposes import systematic_purposes
 from ucm_cts.harness.purposes.tables import purposes_of
@@ -30,6 +30,7 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     crowd_purposes,
     service_contention_purposes,
     core_boundary_purposes,
+    run_purposes,
     functools.partial(purposes_of, "execution_policies"),
     message_purposes,
     service_purposes,

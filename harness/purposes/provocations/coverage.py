@@ -8,10 +8,12 @@ from typing import NamedTuple
 
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Hook, Scenario, Step, operation
-from ucm_cts.harness.purposes.provocations.dimensions import load_dimensions
+from ucm_cts.harness.purposes.provocations.dimensions import NamedAction, load_dimensions
 
 CALLED = "a call"
 """Stands for the operation where a body is entered by a business call or by its container on its own account."""
+
+_OF_METHODS = {"call": ("call_method",), "return": ("answer",)}
 
 _BUSINESS = frozenset(("exchange", "method", "run"))
 
@@ -19,7 +21,7 @@ _BUSINESS = frozenset(("exchange", "method", "run"))
 class Provocation(NamedTuple):
     """A body was in callback ``hook``, which ``by`` led into, and did ``action`` (its tag in plans) there."""
 
-    hook: Hook
+    hook: str
     by: str
     action: str
 
@@ -58,7 +60,7 @@ class ProvocationRow:
     ``cells``: of each action its name, how often it was seen, and why it cannot be, empty if it can.
     """
 
-    hook: Hook
+    hook: str
     by: str
     cells: tuple[tuple[str, int, str], ...]
 
@@ -69,7 +71,7 @@ def rows(counted: Mapping[str, int]) -> tuple[ProvocationRow, ...]:
     entrances = dict.fromkeys(
         (e.hook, CALLED if e.hook in _BUSINESS else e.by, e.by) for e in dimensions.entrances if e.hook
     )
-    return tuple(
+    own = tuple(
         ProvocationRow(
             hook,
             by,
@@ -84,6 +86,32 @@ def rows(counted: Mapping[str, int]) -> tuple[ProvocationRow, ...]:
         )
         for hook, by, step in entrances
     )
+    others = (
+        ProvocationRow(
+            other.hook,
+            CALLED,
+            tuple(
+                (
+                    action.name,
+                    sum(counted.get(Provocation(other.hook, CALLED, tag).name, 0) for tag in _tags(action)),
+                    other.empty.get(action.name, other.reason),
+                )
+                for action in dimensions.actions
+            ),
+        )
+        for other in dimensions.elsewhere
+    )
+    return (*own, *(row for row in others if _is_provoked(row)))
+
+
+def _is_provoked(row: ProvocationRow) -> bool:
+    """Has the run scenarios for ``row``, or a reason why there are none? Profile container has neither run nor methods."""
+    return any(times for _, times, _ in row.cells) or all(reason for _, _, reason in row.cells)
+
+
+def _tags(action: NamedAction) -> tuple[str, ...]:
+    """The action as plans spell it, also where it is about a method."""
+    return (action.tag, *_OF_METHODS.get(action.tag, ()))
 
 
 def _leading(hook: Hook, ongoing: Iterable[Step]) -> str:

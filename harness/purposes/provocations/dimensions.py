@@ -96,6 +96,16 @@ class Excluded(Value, frozen=True):
         return _is_one_of(entrance.hook, self.hooks) and _is_one_of(entrance.by, self.by)
 
 
+class Elsewhere(Value, frozen=True):
+    """An entrance whose scenarios are in other tables: ``hook``, or another operation of bodies; why actions, by name, are ``empty``; and
+    the ``reason`` if all are.
+    """
+
+    hook: str
+    empty: dict[str, str] = {}
+    reason: str = ""
+
+
 def _is_one_of(value: str | None, values: Sequence[str]) -> bool:
     """No values mean any value."""
     return not values or value in values
@@ -128,6 +138,7 @@ class Dimensions(Value, frozen=True):
     positions: tuple[str, ...]
     kinds: tuple[str, ...]
     excluded: tuple[Excluded, ...]
+    elsewhere: tuple[Elsewhere, ...]
 
     def entrances_and_refusals(self) -> dict[str, Entrance]:
         """All that a cell may begin with, by name."""

@@ -57,6 +57,55 @@ def duration_purposes() -> list[TestPurpose]:
     return [*purposes, TestPurpose("duration/call of a peer", "11.1.3", text, ("R-11.1.3-01", "R-11.1.2-02"), slow)]
 
 
+def run_purposes() -> list[TestPurpose]:
+    """What a body does in run, where it executes by itself: profile core. The gate shows that it has been there."""
+    here = (s.HoldAtGate("ran"),)
+    purposes = []
+    for action in load_dimensions().actions:
+        plan = {"hold": here, "raise": (*here, *action.plan), "call": (*action.plan, *here)}.get(action.tag)
+        if plan is None:
+            continue
+        name = f"provocation/run/{action.name}"
+        components = {
+            "server": Declaration(("in.api",), policies=(s.Policy(s.UNPROTECTED_PASSIVE),)),
+            "runner": Declaration(
+                ("in.api",), ("out.api",), plan={"run": plan}, policies=(s.Policy(s.SELF_EXECUTING),)
+            ),
+        }
+        scenarios = tuple(
+            (f"{name}/then {then}", Scenario(components, (*_RUN, *after))) for then, after in _AFTER_RUN.items()
+        )
+        text = f"A body {action.name} in run."
+        purposes.append(TestPurpose(name, "10.1.3.2", text, ("R-10.1.3.2-01",), scenarios))
+    return purposes
+
+
+_RUN: tuple[Step, ...] = (
+    s.AddComponent("server"),
+    s.AddComponent("runner"),
+    s.GetPortElement("server", "in.api", "to server"),
+    s.Connect("runner", "out.api", "to server", "link"),
+    s.Start(),
+    s.ReachGate("ran"),
+    s.OpenGate("ran"),
+    s.Invoke("to server", 1),
+)
+_RUN_AGAIN: tuple[Step, ...] = (s.Start(), s.ReachGate("ran", total=2), s.Invoke("to server", 2), s.Stop())
+_AFTER_RUN: dict[str, tuple[Step, ...]] = {
+    "start and stop": (s.Stop(), *_RUN_AGAIN),
+    "undo and redo": (
+        s.Stop(),
+        s.Disconnect("link"),
+        s.RemoveComponent("runner"),
+        s.AddComponent("runner"),
+        s.Connect("runner", "out.api", "to server", "other link"),
+        *_RUN_AGAIN,
+        s.GetComponents(),
+    ),
+    "destroy": (s.Destroy(),),
+}
+
+
 def _held_in(entrance: Entrance, place: str) -> Cell | None:
     """A cell in which the body is held, and another one was added before; None if there is none in that place."""
     dimensions = load_dimensions()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from typing import TypeVar
 
@@ -127,3 +128,23 @@ def leaves_threads_of_active_components(self: Base, member: Member, failures: Fa
     """The thread of an active component is not ended when its component is removed."""
     member.execution.executor.close = lambda: None  # type: ignore[method-assign]
     Base._remove(self, member, failures)
+
+
+@breaks("R-10.1.3.2-01", clauses=POLICIES)
+class runs_no_successor_of_what_raised(Base):
+    """Where a run has raised, components of that implementation that are added later are not executed."""
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        failed: dict[str, int] = self.manager.__dict__.setdefault("failed runs", {})
+        if failed.get(member.implementation.name, member.id) == member.id:
+            api = self._execution_api(member)
+            with suppress(Exception):
+                self._execute(member, None, lambda: trigger.run(partial(self._noting, member, api.run, failed)))
+
+    @staticmethod
+    def _noting(member: Member, run: Callable[[], None], failed: dict[str, int]) -> None:
+        try:
+            run()
+        except Exception:
+            failed[member.implementation.name] = member.id
+            raise
