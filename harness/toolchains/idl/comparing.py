@@ -6,6 +6,7 @@ One fact reports a missing declaration; further facts about it are not exercised
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from itertools import islice
 
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.idl.annotations import applied
@@ -15,7 +16,7 @@ from ucm_cts.harness.toolchains.idl.language.scopes import build
 from ucm_cts.harness.toolchains.idl.omniidl import Opinion
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
 from ucm_cts.harness.toolchains.idl.standard import standard_differences
-from ucm_cts.harness.toolchains.idl.validity import building_blocks, invalid
+from ucm_cts.harness.toolchains.idl.validity import building_blocks, invalid, not_included
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
 from ucm_cts.reference_models.mapping.idl.declarations import Place
 from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF, Declares, Expected, ExpectedIdl
@@ -103,7 +104,9 @@ def _of_files(vendor: Vendor, read: Files, exercised: dict[str, int]) -> Iterato
     exercised["R-12.1-03"] = exercised["R-12.1-02"] = 1
     for problem in read.problems:
         yield _about_files("R-12.1-03", Wrong("IDL", problem.text, Place(problem.file, problem.line)))
-    for requirement, found in (("R-12.1-03", invalid(vendor, read)), ("R-12.1-02", building_blocks(vendor, read))):
+    of_idl = list(invalid(vendor, read))
+    of_idl += [] if of_idl else islice(not_included(vendor, read), 1)
+    for requirement, found in (("R-12.1-03", of_idl), ("R-12.1-02", building_blocks(vendor, read))):
         for wrong in found:
             yield _about_files(requirement, wrong)
     for requirement, looked_at in (*applied(vendor, read), *standard_differences(vendor)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.harness.toolchains.idl.language.reading import Files
-from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Scope, every, resolve
+from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Scope, build, every, resolve
 from ucm_cts.harness.toolchains.idl.language.showing import type_of
 from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
@@ -31,6 +31,34 @@ def invalid(vendor: Vendor, read: Files) -> Iterator[Wrong]:
         for name in _late(entry):
             observed = f"{entry.declaration.name} uses '{name}', which is declared after it"
             yield Wrong("each name to be declared before it is used", observed, entry.declaration.place)
+
+
+def not_included(vendor: Vendor, read: Files) -> Iterator[Wrong]:
+    """Names in a file that no other one includes, if only files that it does not include declare them: it is no IDL by itself."""
+    roots = read.left.roots
+    if len(roots) < 2 or read.missing or read.problems:
+        return
+    for root in roots:
+        within = _included(root, read)
+        own = build({name: found for name, found in read.declarations.items() if name in within})
+        alone = Vendor(own, vendor.expected, vendor.readings, unreadable=False, missing=False)
+        for entry in every(own):
+            if isinstance(entry.declaration, idl.AnnotationDefinition) or _in_annotation(entry):
+                continue
+            for name in _names(alone, entry):
+                observed = f"'{name}' in {entry.declaration.name}, which {root} neither declares nor includes"
+                yield Wrong("each file to include what it uses", observed, entry.declaration.place)
+                break
+
+
+def _included(root: str, read: Files) -> set[str]:
+    """The file ``root`` and all that it includes, itself or by way of others."""
+    found, waiting = {root}, [root]
+    while waiting:
+        new = {name for _, name in read.left.includes.get(waiting.pop(), ())} - found
+        found |= new
+        waiting += new
+    return found
 
 
 def _late(entry: Entry) -> Iterator[str]:
