@@ -73,6 +73,8 @@ def test_every_requirement_with_a_rule_has_a_mutant_and_a_model() -> None:
     assert testable <= {requirement for mutant in MUTANTS.values() for requirement in mutant.breaks}
     values = {"idl-enumerator-values": "observed"}
     seen = {r for subject in subjects() for r in compare(subject.expected, subject.files, values).exercised}
+    beside = changed(VARIANTS["with_equivalents"])
+    seen |= {r for one in beside for r in compare(one.expected, one.files, {"idl-output": "both"}).exercised}
     assert testable - seen == {"R-12-01", "R-9.2.9.4-04"}, "no comparison of one model sees these"
 
 
