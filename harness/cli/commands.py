@@ -23,7 +23,7 @@ from ucm_cts.harness.cli.framework_run import FrameworkRun, certify_framework
 from ucm_cts.harness.cli.results_command import results
 from ucm_cts.harness.cli.selftest_command import selftest
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
-from ucm_cts.harness.cli.toolchain_command import certify_toolchain, profiles_of
+from ucm_cts.harness.cli.toolchain_command import ToolChainRun, certify_toolchain, profiles_of
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.offers import LIMITS, offers_of
 from ucm_cts.harness.hosting.hosts import HostUnavailable
@@ -114,7 +114,9 @@ def run(
     if toolchain is not None:
         _refuse(context, ("adapter", *OF_FRAMEWORKS))
         chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
-        certify_toolchain(toolchain, chosen, expression, out, known_failures, ics, drawn, everything, failed_first)
+        certify_toolchain(
+            ToolChainRun(toolchain, chosen, expression, out, known_failures, ics, drawn, everything, failed_first)
+        )
     if profile in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
     certify_framework(

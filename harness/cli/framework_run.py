@@ -85,8 +85,8 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
         if wanted.failed_first:
             failed = failed_in(wanted.out, console).requirements
             purposes = tuple(sorted(purposes, key=lambda purpose: not failed.intersection(purpose.requirements)))
-        checkpoints = Checkpoints(folder, _measured(wanted, statement, known, purposes, endpoint))
-        series = _Series(wanted, endpoint, statement, known, purposes, checkpoints, console, interrupts)
+        plan = _Plan(wanted, endpoint, statement, known, purposes)
+        series = _Series(plan, Checkpoints(folder, _measured(plan)), console, interrupts)
         incomplete = series.run()
         report = ended_early(series.joined(), incomplete)
         if wanted.expression:
@@ -98,30 +98,28 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
         leave_with(console, report, saved, known, wanted.everything)
 
 
+@dataclass(frozen=True)
+class _Plan:
+    """What a run is of: what the user ``wanted``, and what that leads to."""
+
+    wanted: FrameworkRun
+    endpoint: Endpoint
+    statement: Statement
+    known: Sequence[KnownFailure]
+    purposes: Sequence[TestPurpose]
+
+
 class _Series:
     """One run, or several with a seed each; ``reports`` has one for each."""
 
-    def __init__(
-        self,
-        wanted: FrameworkRun,
-        endpoint: Endpoint,
-        statement: Statement,
-        known: Sequence[KnownFailure],
-        purposes: Sequence[TestPurpose],
-        checkpoints: Checkpoints,
-        console: Output,
-        interrupts: Interrupts,
-    ) -> None:
-        self._wanted = wanted
-        self._endpoint = endpoint
-        self._statement = statement
-        self._known = known
-        self._purposes = purposes
+    def __init__(self, plan: _Plan, checkpoints: Checkpoints, console: Output, interrupts: Interrupts) -> None:
+        self._plan = plan
+        self._wanted = plan.wanted
         self._checkpoints = checkpoints
         self._console = console
         self._interrupts = interrupts
-        self._seed = wanted.seed
-        self._explore = Budget(0) if wanted.expression else wanted.explore
+        self._seed = plan.wanted.seed
+        self._explore = Budget(0) if plan.wanted.expression else plan.wanted.explore
         self._is_greeted = False
         self._state: CampaignState | None = None
         self.reports: list[FrameworkReport] = []
@@ -143,7 +141,9 @@ class _Series:
         self.reports = self.reports[: self._wanted.repeat]
         ended = f"{len(self.reports)} of {self._wanted.repeat} runs had ended before"
         part = (
-            f", and {len(self._state.done)} of {len(self._purposes)} test purposes" if self._state is not None else ""
+            f", and {len(self._state.done)} of {len(self._plan.purposes)} test purposes"
+            if self._state is not None
+            else ""
         )
         self._console.say(f"{ended}{part}")
 
@@ -151,7 +151,9 @@ class _Series:
         """One report of all runs. What differs between them is searched for, unless nothing more is to be run."""
         try:
             with self._interrupts.permitted():
-                return repeated(self.reports, steady_search(self._endpoint, self._wanted.limits, self._statement.ics))
+                return repeated(
+                    self.reports, steady_search(self._plan.endpoint, self._wanted.limits, self._plan.statement.ics)
+                )
         except (HostUnavailable, KeyboardInterrupt):
             return repeated(self.reports, lambda failed, seed: None)
 
@@ -160,7 +162,7 @@ class _Series:
         number, of = len(self.reports) + 1, self._wanted.repeat
         which = f"run {number} of {of}"
         try:
-            with Driver(self._endpoint, self._seed + number - 1, self._wanted.limits) as driver:
+            with Driver(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
                 with self._interrupts.permitted():
                     identity = driver.identity
                 known = [*self.reports, *([self._state.report] if self._state is not None else [])]
@@ -170,7 +172,7 @@ class _Series:
                         raise _Misfit(f"the runs that had ended before are of {another}; leave out --resume")
                     return f"{which} was of {another}"
                 if not self._is_greeted:
-                    check_subject(self._statement, identity, self._wanted.profile)
+                    check_subject(self._plan.statement, identity, self._wanted.profile)
                     greet(self._console, name_of(identity), self._wanted.profile, self._seed)
                     self._is_greeted = True
                 return self._measure(driver, f"{which}: " if of > 1 else "") if number <= of else ""
@@ -186,7 +188,7 @@ class _Series:
             return f"{which} could not begin: {problem}"
 
     def _measure(self, driver: Driver, which: str) -> str:
-        campaign = Campaign(driver, self._wanted.profile, self._known, self._statement)
+        campaign = Campaign(driver, self._wanted.profile, self._plan.known, self._plan.statement)
         done = 0
         if self._state is not None:
             campaign.restore(self._state)
@@ -197,7 +199,7 @@ class _Series:
                 self._check(campaign, which, done)
         except KeyboardInterrupt:
             state = campaign.state
-            problem = f"interrupted after {len(state.done)} of {len(self._purposes)} test purposes"
+            problem = f"interrupted after {len(state.done)} of {len(self._plan.purposes)} test purposes"
             self._checkpoints.keep_part(len(self.reports) + 1, state, self._console)
         if problem and self.reports:  # half a run would make verdicts unstable
             return f"{problem} of run {len(self.reports) + 1}"
@@ -209,9 +211,9 @@ class _Series:
 
     def _check(self, campaign: Campaign, which: str, done: int) -> None:
         with progress_of(self._console) as progress:
-            task = progress.add_task(f"{which}checking", total=len(self._purposes), completed=done)
+            task = progress.add_task(f"{which}checking", total=len(self._plan.purposes), completed=done)
             failing, kept = 0, time.monotonic()
-            for checked in campaign.check(self._purposes):
+            for checked in campaign.check(self._plan.purposes):
                 failing += bool(checked.failures)
                 text = f"{which}{failing} failing, {one_line(checked.purpose.id, 50)}"
                 progress.update(task, advance=1, description=text)
@@ -258,23 +260,21 @@ def _is_of(identity: Welcome, report: FrameworkReport) -> bool:
     return (identity.product, identity.version) == (report.product, report.version)
 
 
-def _measured(
-    wanted: FrameworkRun,
-    statement: Statement,
-    known: Sequence[KnownFailure],
-    purposes: Sequence[TestPurpose],
-    endpoint: Endpoint,
-) -> tuple[object, ...]:
+def _measured(plan: _Plan) -> tuple[object, ...]:
     """All that two runs must have in common to be of one series."""
+    wanted, endpoint = plan.wanted, plan.endpoint
     target = Path(endpoint.target)
     return (
         ucm_cts.__version__,
         [(r.id, r.rules, r.level) for r in load_requirements()],
-        [(purpose.id, purpose.requirements, purpose.scenarios) for purpose in sorted(purposes, key=lambda p: p.id)],
+        [
+            (purpose.id, purpose.requirements, purpose.scenarios)
+            for purpose in sorted(plan.purposes, key=lambda p: p.id)
+        ],
         (endpoint.text, endpoint.kind, endpoint.target, endpoint.in_process),
         hashlib.sha256(target.read_bytes()).hexdigest() if target.is_file() else "",
         (wanted.profile, wanted.expression, wanted.systematic),
-        msgspec.structs.replace(statement, folder=""),
+        msgspec.structs.replace(plan.statement, folder=""),
         (wanted.limits.seconds, wanted.limits.memory, wanted.limits.incident_seconds),
-        known,
+        plan.known,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
@@ -18,39 +19,46 @@ from ucm_cts.harness.results.known_failures import known_today
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.results.tally import ended_early, of_selection
 from ucm_cts.harness.statement.files import check_subject, read_statement
-from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
+from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign, ToolChainPlan
 from ucm_cts.harness.toolchains.commands.description import ToolChain, read_toolchain
 from ucm_cts.harness.toolchains.commands.processing import CommandLine
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.renaming import Renaming
 
 
-def certify_toolchain(
-    path: Path,
-    profile: str,
-    expression: str,
-    out: Path,
-    known_failures: Path | None,
-    ics: Path | None,
-    seed: int,
-    everything: bool = False,
-    failed_first: bool = False,
-) -> NoReturn:
-    """Run ``profile`` on the tool chain that the file at ``path`` describes, write the report to ``out``, and end.
+@dataclass(frozen=True)
+class ToolChainRun:
+    """What a user wants: the arguments of ``ucm-cts run --toolchain``.
 
-    The summary lists ``everything`` on request. Raises ``WrongUse`` and ``DocumentError``.
+    ``path``: the file that describes the tool chain.
+    ``everything``: the summary lists everything.
     """
+
+    path: Path
+    profile: str
+    expression: str
+    out: Path
+    known_failures: Path | None
+    ics: Path | None
+    seed: int
+    everything: bool = False
+    failed_first: bool = False
+
+
+def certify_toolchain(wanted: ToolChainRun) -> NoReturn:
+    """Run it, write the report, and end. Raises ``WrongUse`` and ``DocumentError``."""
+    path, profile, expression = wanted.path, wanted.profile, wanted.expression
     if profile not in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
     toolchain = read_toolchain(path)
     command = toolchain.command_for(TASKS[profile])
     if command is None:
         raise WrongUse(f"{path} does not say how '{TASKS[profile]}' is done, which profile '{profile}' needs")
-    known = known_today(known_failures)
-    statement = read_statement(ics) if ics is not None else default_statement()
+    known = known_today(wanted.known_failures)
+    statement = read_statement(wanted.ics) if wanted.ics is not None else default_statement()
     check_subject(statement, toolchain, profile)
     processor = CommandLine(toolchain)
-    examination = examination_for(profile, statement, Renaming(seed, toolchain.dialect), expression, command)
+    examination = examination_for(profile, statement, Renaming(wanted.seed, toolchain.dialect), expression, command)
     ids = [r.id for r in load_requirements() if r.profile in PARTS[profile] and not r.untestable]
     asked = {id_ for id_ in ids if any(word in id_.lower() for word in words_of(expression))}
     names = [name for name, _ in examination.models]
@@ -59,19 +67,19 @@ def certify_toolchain(
     if not examination.models:
         raise nothing_selected(expression, ids, "model")
     console = Output()
-    with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(out) as folder:
-        greet(console, name_of(toolchain), profile, seed)
-        campaign = ToolChainCampaign(
-            processor,
-            examination,
-            (toolchain.product, toolchain.version),
+    with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(wanted.out) as folder:
+        greet(console, name_of(toolchain), profile, wanted.seed)
+        plan = ToolChainPlan(
+            toolchain.product,
+            toolchain.version,
             profile,
             statement,
             known,
             source=str(path),
-            seed=seed,
-            first=failed_in(out, console).models if failed_first else (),
+            seed=wanted.seed,
+            first=failed_in(wanted.out, console).models if wanted.failed_first else (),
         )
+        campaign = ToolChainCampaign(processor, examination, plan)
         incomplete = _conduct(campaign, len(examination.models), console, interrupts)
         if not campaign.is_judged:
             campaign.judge()
@@ -80,7 +88,7 @@ def certify_toolchain(
         report = ended_early(campaign.report(), incomplete)
         if expression:
             report = of_selection(report, expression, asked | campaign.asked_by(words_of(expression)))
-        leave_with(console, report, keep_report(report, folder), known, everything)
+        leave_with(console, report, keep_report(report, folder), known, wanted.everything)
 
 
 def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:

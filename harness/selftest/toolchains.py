@@ -18,7 +18,7 @@ from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.values import MODEL_FILE, RequirementResult
 from ucm_cts.harness.selftest.consulted import consulted_for
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
-from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
+from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign, ToolChainPlan
 from ucm_cts.harness.toolchains.commands.processing import InProcess
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.generation import mapping_models
@@ -68,7 +68,9 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     trouble = ""
     for names in _batches(derived, program):
         examination = examination_for(profile, statement, Renaming(), models=names)
-        campaign = ToolChainCampaign(InProcess(program), examination, (subject.name, ""), profile, statement, jobs=1)
+        campaign = ToolChainCampaign(
+            InProcess(program), examination, ToolChainPlan(subject.name, "", profile, statement, jobs=1)
+        )
         for _ in campaign.process():
             pass
         campaign.judge()

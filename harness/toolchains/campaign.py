@@ -8,6 +8,7 @@ import time
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass
 from typing import Protocol
 
 import msgspec
@@ -64,60 +65,63 @@ class Examination(Protocol):
         """All facts, from the responses and what ``examine`` has ``shown`` of each, by the names of the models."""
 
 
+@dataclass(frozen=True)
+class ToolChainPlan:
+    """What a run on a tool chain is of.
+
+    ``product``, ``version``: of the tool chain.
+    ``profile``: what it is tested for.
+    ``statement``: its vendor's.
+    ``known_failures``: those that are expected for now.
+    ``jobs``: how many calls of it may run at a time.
+    ``source``: the file that describes it.
+    ``seed``: of the run.
+    ``first``: the names of models to begin with.
+    """
+
+    product: str
+    version: str
+    profile: str
+    statement: Statement
+    known_failures: Sequence[KnownFailure] = ()
+    jobs: int = os.cpu_count() or 1
+    source: str = ""
+    seed: int = 0
+    first: Collection[str] = ()
+
+
 class ToolChainCampaign:
     """Runs a profile on a tool chain. Call ``process`` once, then ``judge`` and ``confirm``, then ``report``."""
 
-    def __init__(
-        self,
-        processor: Processor,
-        examination: Examination,
-        identity: tuple[str, str],
-        profile: str,
-        statement: Statement,
-        known_failures: Sequence[KnownFailure] = (),
-        jobs: int = os.cpu_count() or 1,
-        source: str = "",
-        seed: int = 0,
-        first: Collection[str] = (),
-    ) -> None:
-        """``identity`` is the product and its version, ``source`` the file that describes it, ``seed`` the run's. The models
-        of the names ``first`` are processed first.
-        """
+    def __init__(self, processor: Processor, examination: Examination, plan: ToolChainPlan) -> None:
         self._processor = processor
         self._examination = examination
-        self._identity = identity
-        self._profile = profile
-        self._statement = statement
-        self._known = known_failures
-        self._jobs = jobs
-        self._source = source
-        self._seed = seed
+        self._plan = plan
         self._responses: dict[str, Response] = {}
         self._shown: dict[str, tuple[Fact, ...]] = {}
         self._facts: list[Fact] = []
-        self._first = first
         self._tally = Tally()
         self._seconds: dict[str, float] = {}
         self.is_judged = False
-        self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
+        self._requirements = [r for r in load_requirements() if r.profile in PARTS[plan.profile]]
         self._measures: Counter[str] = Counter()
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
     def process(self) -> Iterator[str]:
         """Have each model processed, several at a time; yields the name of each when it is done."""
-        task = TASKS[self._profile]
-        models = sorted(self._examination.models, key=lambda model: model[0] not in self._first)
+        task = TASKS[self._plan.profile]
+        models = sorted(self._examination.models, key=lambda model: model[0] not in self._plan.first)
         size = self._processor.at_once(task)
         waiting = iter([models[first : first + size] for first in range(0, len(models), size)])
         running: dict[Future[list[tuple[Response, tuple[Fact, ...]]]], list[str]] = {}
-        with ThreadPoolExecutor(self._jobs) as pool:
+        with ThreadPoolExecutor(self._plan.jobs) as pool:
             try:
                 while True:
                     for some in waiting:
                         future = pool.submit(self._processed, task, some)
                         running[future] = [name for name, _ in some]
-                        if len(running) >= 2 * self._jobs:
+                        if len(running) >= 2 * self._plan.jobs:
                             break
                     if not running:
                         return
@@ -147,7 +151,7 @@ class ToolChainCampaign:
         self._measures.clear()
         for requirement, reason in self._examination.not_applicable.items():
             self._tally.settle(requirement, "not applicable", reason)
-        if self._profile == "idl" and omniidl.missing():  # a pass must not depend on what is installed
+        if self._plan.profile == "idl" and omniidl.missing():  # a pass must not depend on what is installed
             self._tally.settle(omniidl.ASKED_ABOUT, "inconclusive", omniidl.missing())
         self._facts = list(self._examination.judge(self._responses, self._shown))
         for fact in self._facts:
@@ -193,12 +197,14 @@ class ToolChainCampaign:
         broken = {fact.requirement: fact for fact in reversed(self._facts) if fact.finding is not None}
 
         def is_shown_again(fact: Fact) -> bool:
-            again = {name: self._processor.process(TASKS[self._profile], name, texts[name]) for name in fact.models}
+            again = {
+                name: self._processor.process(TASKS[self._plan.profile], name, texts[name]) for name in fact.models
+            }
             shown = {name: self._examination.examine(name, response) for name, response in again.items()}
             facts = self._examination.judge(self._responses | again, self._shown | shown)
             return any(f.requirement == fact.requirement and f.finding and f.models == fact.models for f in facts)
 
-        with ThreadPoolExecutor(self._jobs) as pool:
+        with ThreadPoolExecutor(self._plan.jobs) as pool:
             try:
                 for fact, again in zip(broken.values(), pool.map(is_shown_again, broken.values()), strict=True):
                     if not again and fact.finding is not None:
@@ -213,20 +219,20 @@ class ToolChainCampaign:
 
     def report(self) -> ToolChainReport:
         """All verdicts of the run so far."""
-        results = self._tally.results(self._requirements, self._known)
+        results = self._tally.results(self._requirements, self._plan.known_failures)
         return ToolChainReport(
-            product=self._identity[0],
-            version=self._identity[1],
-            profile=self._profile,
+            product=self._plan.product,
+            version=self._plan.version,
+            profile=self._plan.profile,
             verdict=overall(results, ()),
             requirements=results,
-            adapter=self._source,
+            adapter=self._plan.source,
             suite_version=ucm_cts.__version__,
-            seed=self._seed,
+            seed=self._plan.seed,
             started=self._started,
             seconds=round(time.monotonic() - self._began, 3),
             models=len(self._responses),
             facts=sum(1 for fact in self._facts if fact.requirement),
-            statement=self._statement,
+            statement=self._plan.statement,
             effort=Effort(dict(self._measures.most_common())),
         )

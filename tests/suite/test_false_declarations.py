@@ -22,7 +22,7 @@ from ucm_cts.harness.catalogue.requirements import (
 )
 from ucm_cts.harness.selftest.consulted import consulted_for
 from ucm_cts.harness.selftest.toolchains import declaring
-from ucm_cts.harness.toolchains.campaign import ToolChainCampaign
+from ucm_cts.harness.toolchains.campaign import ToolChainCampaign, ToolChainPlan
 from ucm_cts.harness.toolchains.commands.processing import InProcess
 from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
@@ -107,7 +107,7 @@ def failing(case: False_, expression: str = "") -> list[str]:
     statement = declaring((*others, f"{case.option}={case.declared}"))
     examination = examination_for("pim", statement, Renaming(), expression)
     program = InProcess(case.subject.derive(REFERENCE))
-    campaign = ToolChainCampaign(program, examination, (case.subject.name, ""), "pim", statement, jobs=1)
+    campaign = ToolChainCampaign(program, examination, ToolChainPlan(case.subject.name, "", "pim", statement, jobs=1))
     for _ in campaign.process():
         pass
     campaign.judge()
