@@ -13,6 +13,7 @@ from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Re
 from ucm_cts.harness.results.unanswered_calls import finding_of_lost_call
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.designation import designation
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
 from ucm_cts.reference_models.properties.clause_11_2_2 import DECLARED
 
@@ -102,8 +103,8 @@ def finding_of_incident(execution: Execution) -> Finding | None:
         requirement,
         "declared_errors",
         f"{operation} {incident.kind}",
-        f"{operation} returns or raises {' or '.join(declared)}",
-        f"{operation} did not end: {incident.kind}, {incident.detail}",
+        f"{designation(execution.scenario.steps[call.step])} returns or raises {' or '.join(declared)}",
+        f"it did not end: {incident.kind}, {incident.detail}",
         (call.n,),
         call.step,
     )

@@ -9,6 +9,7 @@ import pytest
 from cpp_builds import Builds
 
 from ucm_cts.adapters.mutants.cpp import VARIABLE, NativeMutant, native_mutants
+from ucm_cts.adapters.mutants.python import MUTANTS
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, examine_mutant, native_subject
@@ -40,6 +41,7 @@ def known(command: Path) -> dict[str, NativeMutant]:
 def test_each_mutant_names_its_requirements(known: dict[str, NativeMutant]) -> None:
     requirements = {requirement.id for requirement in load_requirements()}
     assert len(known) >= 10
+    assert not known.keys() & MUTANTS.keys(), "the self-test knows mutants by name"
     for mutant in known.values():
         assert mutant.lie.endswith(".")
         assert mutant.requirements
@@ -51,6 +53,7 @@ def test_each_mutant_names_its_requirements(known: dict[str, NativeMutant]) -> N
 def test_mutant_is_found_out(command: Path, known: dict[str, NativeMutant], name: str) -> None:
     result = examine_mutant(native_subject(known[name], command), Thoroughness(beginning=QUICK[name]))
     assert not result.spills
+    assert not result.wrongly_said
     assert {kill.requirement for kill in result.kills if kill.names_the_place} & set(known[name].requirements)
 
 

@@ -299,7 +299,7 @@ def test_crash_fails_its_node_and_the_run_goes_on() -> None:
     assert 3 < len(session.failed) < len(session.nodes) - 3
     first, *rest = session.failed.values()
     assert set(HEAD.findall(first)) == {"R-12.10-09"}
-    assert "start did not end: crash, SIGSEGV" in first
+    assert "it did not end: crash, SIGSEGV" in first
     for message in rest:
         assert "SIGSEGV" in message, "not every crash gets a second look"
         assert set(HEAD.findall(message)) <= {"R-12.10-09"}

@@ -248,7 +248,7 @@ def rolls_back_connections(self: _RollsBack, _member: Member) -> None:
         del self.manager.connections[connection.id]
 
 
-@replaces("_roll_back", "R-11.2.1.2-06")
+@replaces("_roll_back", "R-11.2.1.2-06", also=("R-11.2.1.2-01",))
 def rolls_back_the_wrong_member(self: _RollsBack, _member: Member) -> None:
     """After a failing on_init the member that was added before gets on_remove."""
     for other in list(self.members.values())[-1:]:

@@ -280,7 +280,7 @@ class refused_removal_disconnects(Base):
         super()._check_removable(member)
 
 
-@breaks("R-11.2.1.2-06", also=("R-12.10-15", "R-11.2.2.1-14"))
+@breaks("R-11.2.1.2-06", also=("R-12.10-15", "R-11.2.2.1-14", "R-11.2.1.2-01"))
 class unknown_removal_hits_the_last(Base):
     """remove_component of an unknown component is NOT_FOUND, and the member added last gets on_remove."""
 

@@ -144,7 +144,7 @@ class refuses_a_second_push(Link):
             self.pushing -= 1
 
 
-@replaces("_deliver", "R-10.1.6.1-08", clauses=("10.1.6",), also=("R-10.1.2-10", "R-10.1.6.1-04"))
+@replaces("_deliver", "R-10.1.6.1-08", clauses=("10.1.6",), also=("R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-04"))
 def gives_up_after_three_failures(self: Link, taker: Taker, method: str) -> None:
     """Once receivers of a connection raised three times, none of them gets messages."""
     while (message := taker.messages.get()) is not None:

@@ -160,6 +160,11 @@ class delivers_all_on_one_thread(ReleasesHeld):
 
     link_class = _SharedThread
 
+    def destroy(self) -> None:
+        super().destroy()
+        if (shared := self.__dict__.pop("deliverer", None)) is not None:
+            shared.messages.put(None)
+
 
 class _Pooled(_Codes):
     """A few threads deliver all messages of a connection, in any order."""
