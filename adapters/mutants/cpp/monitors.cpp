@@ -170,10 +170,10 @@ class StaysLockedAfterExceptions final : public Monitor {
         });
     }
 };
-const bool g = breaks<StaysLockedAfterExceptions>("keeps_the_lock_after_exceptions", {"R-10.1.3.2-17"},
+const bool g = breaks<StaysLockedAfterExceptions>("keeps_the_lock_after_exceptions", {"R-10.1.3.2-15"},
                                                   "Never unlocks a protected component that a call has left with an "
                                                   "exception.",
-                                                  {"R-10.1.3.2-15", "R-11.2.3-03", "R-12.10-10"});
+                                                  {SERVED, "R-11.2.3-03", "R-12.10-10"});
 
 /// Waits also for the thread that is inside already.
 class WaitsForItself final : public Monitor {
