@@ -25,7 +25,7 @@ from ucm_cts.adapters.contract.scenario import (
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import CONTAINER, CORE, POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.execution import Executor, Trigger
-from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.members import Failures, Member
 from ucm_cts.adapters.reference.python.policies import ProtectedElement
 
 _EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
@@ -59,9 +59,9 @@ class executes_all_on_one_thread(Base):
         executor: _SharedExecutor = self.manager.__dict__.setdefault("executor", _SharedExecutor())
         return executor.execute(work)
 
-    def destroy(self) -> None:
-        super().destroy()
-        self.__dict__.pop("executor", _SharedExecutor()).close()
+    def _remove_members(self, failures: Failures) -> None:
+        super()._remove_members(failures)
+        self.__dict__.pop("executor", _SharedExecutor()).close()  # the manager has it: the application is destroyed
 
 
 @replaces("_execute", clauses=POLICIES)

@@ -16,7 +16,7 @@ from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, variant_of
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, INTERNAL_ERROR, OK, Link, LinkElement, Taker
-from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 _FEW, _FULL = 20, 500
 _CLAUSES = ("10.1.2", "10.1.6")
@@ -160,10 +160,10 @@ class delivers_all_on_one_thread(ReleasesHeld):
 
     link_class = _SharedThread
 
-    def destroy(self) -> None:
-        super().destroy()
-        if (shared := self.__dict__.pop("deliverer", None)) is not None:
-            shared.messages.put(None)
+    def _remove_members(self, failures: Failures) -> None:
+        super()._remove_members(failures)
+        if (deliverer := self.__dict__.pop("deliverer", None)) is not None:  # the application is destroyed
+            deliverer.messages.put(None)
 
 
 class _Pooled(_Codes):
