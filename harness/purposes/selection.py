@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from collections.abc import Callable, Iterable
 
@@ -28,16 +29,30 @@ from ucm_cts.harness.purposes.tables import purposes_of
 _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     overlap_purposes,
     crowd_purposes,
-    service_contention_purposes,
-    core_boundary_purposes,
-    run_purposes,
     functools.partial(purposes_of, "execution_policies"),
     message_purposes,
     service_purposes,
     log_message_purposes,
     functools.partial(purposes_of, "port_traces"),
 )
-"""Where the purposes of profile core come from, beside scripts and those of data types."""
+"""Where the purposes of profile core come from, beside scripts, dimensions and those of data types."""
+
+_DIMENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (
+    provocation_purposes,
+    duration_purposes,
+    boundary_purposes,
+    later_use_purposes,
+    contention_purposes,
+    container_contention_purposes,
+)
+"""Where the purposes come from that are derived from dimensions."""
+
+_DIMENSIONS_OF_CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
+    service_contention_purposes,
+    core_boundary_purposes,
+    run_purposes,
+)
+"""The same for profile core."""
 
 
 @functools.cache
@@ -79,19 +94,17 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         for script in load_scripts()
         if script.exercises[0] in clauses
     ]
-    combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
+    of_core = "core" in PARTS[profile]
+    combined = [purpose for source in _CORE for purpose in source()] if of_core else []
+    sources = (*_DIMENSIONS, *(_DIMENSIONS_OF_CORE if of_core else ()))
+    derived = [dataclasses.replace(purpose, of_dimensions=True) for source in sources for purpose in source()]
     return (
         *scripted,
         *generated_purposes(load_life_cycle()),
         *purposes_of("start"),
         *purposes_of("peers"),
         *unforeseen_purposes(),
-        *provocation_purposes(),
-        *duration_purposes(),
-        *boundary_purposes(),
-        *later_use_purposes(),
-        *contention_purposes(),
-        *container_contention_purposes(),
+        *derived,
         *combined,
     )
 

@@ -23,7 +23,6 @@ from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
-from ucm_cts.harness.purposes.provocations.dimensions import FAMILIES
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.failures import length
 from ucm_cts.harness.results.statement import Statement
@@ -198,8 +197,8 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
         with _being(subject), Driver(locate(subject.adapter), how.seed, LIMITS) as driver:
             campaign = Campaign(driver, profile, (), statement)
             purposes = _purposes(subject, how, profile, statement)
-            derived = [purpose for purpose in purposes if purpose.id.startswith(FAMILIES)]
-            written = [purpose for purpose in purposes if not purpose.id.startswith(FAMILIES)]
+            derived = [purpose for purpose in purposes if purpose.of_dimensions]
+            written = [purpose for purpose in purposes if not purpose.of_dimensions]
             _check(ran, subject, campaign, written, may_end=how.quick)
             _check(ran, subject, campaign, derived, may_end=not how.whole)
             ran.incidents = _incidents_of(campaign)

@@ -22,7 +22,6 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.payloads import Payloads
-from ucm_cts.harness.purposes.provocations.dimensions import FAMILIES
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
 from ucm_cts.harness.selftest.wording import wrongly_said
@@ -63,8 +62,8 @@ class Product:
         self.exercised: set[str] = set()
         self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
         engine, stated = Engine(adapter), tuple(sorted(declared.items()))
-        for line, (name, scenario) in _prepared(stated).items():
-            if is_wrong and name.startswith(FAMILIES):
+        for line, (name, scenario, is_derived) in _prepared(stated).items():
+            if is_wrong and is_derived:
                 continue
             with _bounded() if is_wrong else nullcontext():
                 answer = engine.answer(line)
@@ -118,14 +117,14 @@ def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | li
 
 
 @functools.cache
-def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario]]:
-    """The suite's scenarios by what a host is sent; those that several test purposes share are there once."""
+def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario, bool]]:
+    """The suite's scenarios by what a host is sent, and whether they are derived from dimensions; those that several test purposes share are there once."""
     disguise, payloads = Disguise(1, "{port}_{element}"), Payloads(1)
-    prepared: dict[bytes, tuple[str, Scenario]] = {}
+    prepared: dict[bytes, tuple[str, Scenario, bool]] = {}
     for purpose in load_purposes("container", *map("=".join, declared)):
         for name, plain in purpose.scenarios:
             scenario = disguise.scenario(payloads.deal(plain))
-            prepared.setdefault(encode(Run(0, scenario)), (name, scenario))
+            prepared.setdefault(encode(Run(0, scenario)), (name, scenario, purpose.of_dimensions))
     return prepared
 
 

@@ -13,9 +13,6 @@ from ucm_cts.harness.catalogue.requirements import SUITE
 COVERING = SUITE / "provocations_covering.json"
 """The cells that have scenarios, by entrance and action: aftermath, place, position and kind of each. ``covering`` makes it."""
 
-FAMILIES = ("provocation/", "refusal/", "duration/", "boundary/", "later use/", "contention/")
-"""How the names of purposes and scenarios begin that are derived from dimensions."""
-
 
 class Entrance(Value, frozen=True):
     """A way into a body, or an operation that is refused and enters none.

@@ -65,7 +65,7 @@ def run_purposes() -> list[TestPurpose]:
         plan = {"hold": here, "raise": (*here, *action.plan), "call": (*action.plan, *here)}.get(action.tag)
         if plan is None:
             continue
-        name = f"provocation/run/{action.name}"
+        name = f"run/{action.name}"
         components = {
             "server": Declaration(("in.api",), policies=(s.Policy(s.UNPROTECTED_PASSIVE),)),
             "runner": Declaration(
