@@ -6,8 +6,11 @@ import functools
 import hashlib
 import re
 import resource
+import signal
+import time
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
+from types import FrameType
 from typing import NamedTuple
 
 import psutil
@@ -21,6 +24,7 @@ from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.hosting.hosts import waits
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
@@ -53,7 +57,7 @@ class Product:
 
     ``failing`` are the failing requirements, each with an example, ``exercised`` those that were exercised at all,
     ``readings`` what it makes of the freedoms of the text. One that ``is_wrong`` may crash, hang or keep files: it is
-    spared what is derived from dimensions.
+    spared what is derived from dimensions, and what comes after a hang.
     """
 
     def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}, is_wrong: bool = False) -> None:
@@ -65,8 +69,11 @@ class Product:
         for line, (name, scenario, is_derived) in _prepared(stated).items():
             if is_wrong and is_derived:
                 continue
-            with _bounded() if is_wrong else nullcontext():
-                answer = engine.answer(line)
+            try:
+                with bounded(scenario) if is_wrong else nullcontext():
+                    answer = engine.answer(line)
+            except TakesTooLong:
+                break  # in a run it would be an incident
             key = stated, line, hashlib.blake2b(_TIME.sub(b"", answer), digest_size=16).digest()
             if key not in _known:
                 _known[key] = _judged(stated, name, scenario, answer, is_wrong)
@@ -138,14 +145,32 @@ _ROOM = 1 << 30
 """Bytes that one scenario of a wrong subject may take in this process."""
 
 
+_SECONDS = 20
+"""How long one may take, besides what the scenario itself waits."""
+
+
+class TakesTooLong(BaseException):
+    """A wrong subject does not come back. No engine catches this."""
+
+
 @contextmanager
-def _bounded() -> Iterator[None]:
-    """As a host bounds the memory of a framework, whose calls may grow without end."""
+def bounded(scenario: Scenario) -> Iterator[None]:
+    """As a host bounds memory and time of a framework, whose calls may grow, or wait, without end. Raises ``TakesTooLong``."""
+
+    def give_up(_number: int, _frame: FrameType | None) -> None:
+        raise TakesTooLong
+
     before, most = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (psutil.Process().memory_info().vms + _ROOM, most))
+    began, handler = time.monotonic(), signal.signal(signal.SIGALRM, give_up)
+    left, interval = signal.setitimer(signal.ITIMER_REAL, _SECONDS + waits(scenario), 1)
     try:
         yield
     finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, handler)
+        if left:  # that of the whole test
+            signal.setitimer(signal.ITIMER_REAL, max(left - (time.monotonic() - began), 0.001), interval)
         resource.setrlimit(resource.RLIMIT_AS, (before, most))
 
 
