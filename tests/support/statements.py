@@ -11,7 +11,14 @@ ADAPTER = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 REQUIREMENTS = {r.id: r for r in load_requirements()}
 CORE_REQUIREMENTS = [r for r in load_requirements() if r.profile == "core" and not r.untestable]
 PARTS = [capability.id for capability in load_capabilities().capabilities]
-ASKED = {"unknown-policy": "refused", "incompatible-ends": "refused", "attribute-defaults": "set"}
+ASKED = {
+    "unknown-policy": "refused",
+    "incompatible-ends": "refused",
+    "attribute-defaults": "set",
+    "missing-execution-policy": "default",
+    "unprotected-concurrency": "concurrent",
+    "message-order": "fifo",
+}
 """Readings of which only those who declare them are asked anything."""
 EVERYTHING = {hook: "hook" for hook in HOOKS} | ASKED
 

@@ -59,7 +59,12 @@ def test_a_short_statement_has_what_differs_and_what_must_be_decided(here: Path)
     text = (here / "ucm-cts-ics.toml").read_text()
     short = tomllib.loads(text)
     asked = dict.fromkeys(("unknown-policy", "incompatible-ends", "attribute-defaults"), "unasked")
-    undecided = {"core-models": "shipped"} | asked
+    free = {
+        "missing-execution-policy": "observed",
+        "unprotected-concurrency": "may-serialise",
+        "message-order": "unordered",
+    }
+    undecided = {"core-models": "shipped"} | asked | free
     assert short["readings"] == dict.fromkeys(HOOKS, "hook") | undecided
     assert (short["profiles"], short["models"]) == (["container", "core"], {"core": []})
     assert short.keys() == {"product", "version", "profiles", "readings", "models"}
