@@ -18,7 +18,6 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.execution.leftovers import FREED
 from ucm_cts.harness.purposes.payloads import Payloads
-from ucm_cts.harness.purposes.provocations.dimensions import FAMILIES
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
@@ -64,7 +63,7 @@ def findings(adapter: type[ReferenceAdapter], asked: Scenario) -> list[Finding]:
 
 def scenarios() -> Iterator[tuple[str, Scenario]]:
     """Some of the container profile's, of each kind."""
-    written = [case for p in load_purposes("container") if not p.id.startswith(FAMILIES) for case in p.scenarios]
+    written = [case for p in load_purposes("container") if not p.of_dimensions for case in p.scenarios]
     payloads = Payloads(SEED)
     return ((name, payloads.deal(plain)) for name, plain in written[::EACH])
 
