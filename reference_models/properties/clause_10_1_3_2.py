@@ -213,7 +213,8 @@ def policy_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
 
 def _refused(check: Property, declaration: Declaration, end: Raise) -> Conclusions:
     requirement = _SUPPORT.get(ex.protection_of(declaration), "")
-    excused = ex.is_contradictory(declaration) or len(ex.managed_ports(declaration)) > 1  # may count as two policies
+    active = sum(policy.definition == s.ACTIVE for policy in declaration.policies)
+    excused = ex.is_contradictory(declaration) or active > 1  # may count as two policies
     excused = excused or bool(policies_of(declaration, *SERVICES)) or ex.has_unknown_policy(declaration)
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
         expected = f"a component with the policy {declaration.policies[0].definition} is added"

@@ -26,6 +26,7 @@ from ucm_cts.harness.models.core_models import compare as compare_models
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.statement import Statement, default_statement
+from ucm_cts.harness.selftest.consulted import ConsultedReadings
 from ucm_cts.harness.statement.applicability import purposes_for, why_not
 from ucm_cts.harness.toolchains.acceptance import Acceptance
 from ucm_cts.harness.toolchains.generation import OPEN, mapping_models
@@ -44,25 +45,9 @@ NOT_CONSULTED: Mapping[str, str] = {}
 """Options without an effect on the suite, each with the reason."""
 
 
-class Recording(dict[str, str]):
-    """The readings of a statement; it records which options are consulted."""
-
-    def __init__(self, consulted: set[str], readings: Mapping[str, str] = {}) -> None:
-        super().__init__(default_statement().readings | dict(readings))
-        self.consulted = consulted
-
-    def __getitem__(self, option: str) -> str:
-        self.consulted.add(option)
-        return super().__getitem__(option)
-
-    def get(self, option: str, default: str = "") -> str:  # type: ignore[override]
-        self.consulted.add(option)
-        return super().get(option, default)
-
-
 def test_every_option_is_consulted() -> None:
     consulted: set[str] = set()
-    readings = Recording(consulted)
+    readings = ConsultedReadings(consulted)
     _decide_what_applies(msgspec.structs.replace(default_statement(), readings=readings))
     compare_models([CORE], readings)
     _compare_generated_files(consulted)
@@ -83,15 +68,15 @@ def _decide_what_applies(statement: Statement) -> None:
 
 def _compare_generated_files(consulted: set[str]) -> None:
     """The files of the reference tool chain, then of mutants and variants that declare a reading of an option not yet consulted."""
-    _compare_with_models(reference(), Recording(consulted))
+    _compare_with_models(reference(), ConsultedReadings(consulted))
     for derived in (*mutants().values(), *variants().values()):
         declared = dict(reading.split("=", 1) for reading in derived.declares)
         if derived.task == "idl" and declared.keys() - consulted:
-            _compare_with_models(derived.derive(reference()), Recording(consulted, declared), declared.keys())
+            _compare_with_models(derived.derive(reference()), ConsultedReadings(consulted, declared), declared.keys())
 
 
 def _compare_with_models(
-    program: Program, readings: Recording, wanted: KeysView[str] | frozenset[str] = frozenset()
+    program: Program, readings: ConsultedReadings, wanted: KeysView[str] | frozenset[str] = frozenset()
 ) -> None:
     """With all of the models, or until all options that are ``wanted`` have been consulted."""
     for name, text in mapping_models().items():
@@ -129,7 +114,7 @@ def _judge_traces(option: str, consulted: set[str]) -> Iterator[None]:
         (ReferenceAdapter, {}, set(REQUIREMENTS)),
         *others,
     ]:
-        readings = Recording(consulted, declared)
+        readings = ConsultedReadings(consulted, declared)
         monitor, engine = Monitor(load_life_cycle(), Ics(readings)), Engine(adapter)
         for purpose in load_purposes(entry.profile, *(f"{name}={value}" for name, value in declared.items())):
             if requirements.intersection(purpose.requirements):
