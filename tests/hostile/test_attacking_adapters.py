@@ -132,6 +132,10 @@ IMPORTS: dict[str, tuple[str, str]] = {
         "Evil.product = None",
         r"'evil:Evil': evil:Evil has a product that is no text; write product = \"\.\.\.\" in the class",
     ),
+    "has half a character in its product": (
+        "Evil.product = '\\udc80'",
+        r"'evil:Evil': evil:Evil has a product that is no text; write product = \"\.\.\.\" in the class",
+    ),
     "has a number for a version": (
         "Evil.version = 1",
         r"'evil:Evil': evil:Evil has a version that is no text; write version = \"\.\.\.\" in the class",

@@ -132,11 +132,16 @@ def _find_class(module: ModuleType, name: str) -> type[Adapter]:
         missing = ", ".join(sorted(cls.__abstractmethods__))
         raise CannotLoad(f"{module.__name__}:{name} does not implement {missing}")
     for field in ("product", "version", "port_element_name"):
-        if not isinstance(getattr(cls, field), str):
+        if not _is_text(getattr(cls, field)):
             raise CannotLoad(
                 f'{module.__name__}:{name} has a {field} that is no text; write {field} = "..." in the class'
             )
     return cls
+
+
+def _is_text(value: object) -> bool:
+    """Whether ``value`` is a text that a message can hold, so without halves of characters."""
+    return isinstance(value, str) and not any("\ud800" <= character <= "\udfff" for character in value)
 
 
 def _complete_adapters(module: ModuleType) -> list[str]:
