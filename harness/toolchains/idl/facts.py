@@ -301,6 +301,7 @@ FACTS: Mapping[type[exp.Expected], Callable[[Vendor, Any], list[Wrong]]] = {
     exp.Raises: interfaces.raises,
     exp.Only: interfaces.only,
     exp.Inherits: interfaces.inherits,
+    exp.InheritsNone: interfaces.inherits_none,
     exp.Access: interfaces.access,
     exp.Getter: interfaces.getter,
     exp.NoGetter: interfaces.no_getter,

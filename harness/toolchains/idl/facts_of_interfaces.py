@@ -136,6 +136,14 @@ def inherits(vendor: Vendor, fact: exp.Inherits) -> list[Wrong]:
     return [Wrong(f"{interface.name} to inherit from {'::'.join(fact.base)}", observed, interface.place)]
 
 
+def inherits_none(vendor: Vendor, fact: exp.InheritsNone) -> list[Wrong]:
+    """Whether an interface has none of some ancestors."""
+    hit = here(vendor, fact.path, Interface)
+    found = [base for base in fact.bases if base.lower() in base_names(hit)]
+    interface = hit.entry.declaration
+    return [Wrong(f"{interface.name} not to inherit from {base}", "it does", interface.place) for base in found[:1]]
+
+
 def access(vendor: Vendor, fact: exp.Access) -> list[Wrong]:
     """Whether an attribute can be written just if it should."""
     attribute = here(vendor, fact.path, Attribute).entry.declaration

@@ -19,6 +19,9 @@ from ucm_cts.reference_models.mapping.idl.templates import ABSTRACT, Templates
 BODY = "_Body"
 COMPONENT_OBJECT = ("ComponentObject",)
 PORT_ELEMENT_OBJECT = ("PortElementObject",)
+OF_CONTAINERS = ("FragmentObject", "Container", "ContainerManager")
+"""Interfaces of 12.10 that no body of a plain component has to implement."""
+
 
 ASPECTS_OF_PORTS = {"presence": "R-12.8.4-04", "arguments": "R-12.8.4-05", "result": "R-12.8.4-06"}
 ASPECTS_OF_POLICIES = {"presence": "R-12.8.5-02", "arguments": "R-12.8.5-04", "result": "R-12.8.5-05"}
@@ -168,6 +171,7 @@ def implementation_facts(subject: Subject, names: Names, templates: Templates) -
     if type_ is not None:
         yield exp.Inherits(**subject.about("R-12.8.2-02", path=path), base=path_of(type_))
     yield exp.Inherits(**subject.about("R-12.8.2-03", path=path), base=COMPONENT_OBJECT)
+    yield exp.InheritsNone(**subject.about("R-12.8.2-03", path=path), bases=OF_CONTAINERS)
     for policy, both in policies_of(subject, names):
         yield from _policy(subject, policy, path, both, templates)
         yield from _without_parameters(subject, policy, path)

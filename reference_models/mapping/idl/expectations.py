@@ -152,6 +152,12 @@ class Inherits(Expected, frozen=True, kw_only=True):
     base: Path
 
 
+class InheritsNone(Expected, frozen=True, kw_only=True):
+    """The interface has none of ``bases``, names of 12.10, among its ancestors."""
+
+    bases: tuple[str, ...]
+
+
 class Access(Expected, frozen=True, kw_only=True):
     """The attribute can be written, or only read."""
 

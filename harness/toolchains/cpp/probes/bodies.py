@@ -149,11 +149,30 @@ def runs(claim: Runs, abstract: Abstract, interfaces: dict[str, Abstract]) -> tu
         reached = class_text(Returned(claim.owner, getter.name))
         lines.append(_got(getter.name, reached, getter.interface, interfaces))
     lines.append("component.on_shutdown(); component.on_remove();")
+    declared += _one_class(claim.owner, abstract, interfaces)
     count = len(abstract.methods) + len(abstract.getters)
     for position, name in enumerate((*LIFE_CYCLE, "on_startup"), count):
         message = f"calls of {name} do not come to the implementation"
         lines.append(f'::ucts::require(object.ucts_calls[{position}] == 1, "{message}");')
     return declared, " ".join(lines)
+
+
+def _one_class(owner: str, abstract: Abstract, interfaces: dict[str, Abstract]) -> str:
+    """One class implements the body and its port elements (12.12), as far as no two of them have a function of one name."""
+    taken = {"on_startup", *LIFE_CYCLE, *(m.name for m in abstract.methods), *(g.name for g in abstract.getters)}
+    elements: dict[str, str] = {}
+    for getter in abstract.getters:
+        names = {method.name for method in interfaces[getter.interface].methods}
+        if names and not names & taken:
+            taken |= names
+            reached = class_text(Returned(owner, getter.name))
+            elements[getter.interface] = f", ::ucts::{getter.interface}<{reached} >"
+    if not elements:
+        return ""
+    return (
+        f" struct one_class : body{''.join(elements.values())} {{}};"
+        " typedef ::ucts::holds<(!__is_abstract(one_class))>::yes whole;"
+    )
 
 
 def _attribute(method: Method, position: int) -> str:
