@@ -1,5 +1,6 @@
-"""Checks expectations of connectors, port types and components, which clause 9 shows in IDL; only of who declares that both
-clauses bind. Where none of the model's is there, nothing is judged; where one is, all are due.
+"""Checks expectations of connectors, port types and components, which clause 9 shows in IDL.
+
+Only vendors who declare that both clauses bind are asked. Where none of the model's is there, nothing is judged; where one is, all are due.
 """
 
 from __future__ import annotations
