@@ -53,7 +53,7 @@ class LetsFailuresOut final : public NotesFailures {
   protected:
     void failed(const Port&) override { throw std::runtime_error("the body failed"); }
 };
-const bool a = breaks<LetsFailuresOut>("lets_on_disconnect_out_of_disconnect", {"R-12.10-08"},
+const bool a = breaks<LetsFailuresOut>("lets_failures_out_of_disconnect", {"R-12.10-08"},
                                        "disconnect lets another exception out when on_disconnect raised.",
                                        {"R-12.10-23"});
 
@@ -259,7 +259,7 @@ class Lists255 final : public ManagerImpl {
         return listed;
     }
 };
-const bool j = breaks<Lists255>("lists_255_components", {"R-11.2.2.1-14"},
+const bool j = breaks<Lists255>("counts_members_in_a_byte", {"R-11.2.2.1-14"},
                                 "The length of what get_components lists has eight bits.");
 
 class StartsThreeTimes final : public ManagerImpl {
