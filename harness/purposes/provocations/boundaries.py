@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import string
 from collections.abc import Callable, Iterator
 from itertools import chain
 
@@ -214,8 +215,7 @@ def _link(number: int) -> str:
 
 
 def _sized(size: int) -> Scenario:
-    value = "".join(chr(ord("a") + number % 26) for number in range(size))
-    return _with_value(value)
+    return _with_value((string.ascii_lowercase * (size // 26 + 1))[:size])
 
 
 def _with_value(value: str) -> Scenario:

@@ -37,7 +37,7 @@ class _Application:
 
     ``declarations``: of components.
     ``kinds``, ``homes``: declaration and container of each component there is.
-    ``clients``: the component of each connection.
+    ``ends``: the client and the provider of each connection; the provider is empty where the step names none.
     ``goals``: the component of each reference.
     ``running``: the containers that were started when all of their components could be.
     """
@@ -45,7 +45,7 @@ class _Application:
     declarations: Mapping[str, Declaration]
     kinds: dict[str, str] = field(default_factory=dict)
     homes: dict[str, str] = field(default_factory=dict)
-    clients: dict[str, str] = field(default_factory=dict)
+    ends: dict[str, tuple[str, str]] = field(default_factory=dict)
     goals: dict[str, str] = field(default_factory=dict)
     running: set[str] = field(default_factory=set)
 
@@ -62,13 +62,15 @@ class _Application:
             case s.GetPortElement():
                 self.goals[step.bind] = step.id
             case s.Connect():
-                self.clients[step.bind] = step.id
+                self.ends[step.bind] = step.id, self.goals.get(step.to, "")
             case s.Disconnect():
-                self.clients.pop(step.connection, None)
+                self.ends.pop(step.connection, None)
             case s.RemoveComponent():
                 self.homes.pop(step.id, None)
             case s.RemoveContainer():
-                self.homes = {name: home for name, home in self.homes.items() if home != step.container}
+                gone = {name for name, home in self.homes.items() if home == step.container}
+                self.homes = {name: home for name, home in self.homes.items() if name not in gone}
+                self.ends = {name: ends for name, ends in self.ends.items() if gone.isdisjoint(ends)}
             case s.Start() if self._is_complete(step.container):
                 self.running.add(step.container)
             case s.Stop():
@@ -79,7 +81,7 @@ class _Application:
     def _is_complete(self, container: str) -> bool:
         """Is every component of ``container`` connected, and does none fail in a callback that leads to its being ready?"""
         members = {name: self.declarations[self.kinds[name]] for name, home in self.homes.items() if home == container}
-        clients = Counter(self.clients.values())
+        clients = Counter(client for client, _ in self.ends.values())
         return all(len(each.requires) <= clients[name] and not _fails(each) for name, each in members.items())
 
 
