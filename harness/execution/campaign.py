@@ -20,7 +20,7 @@ from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.provocations.coverage import provocations
 from ucm_cts.harness.purposes.scripts import TestPurpose
-from ucm_cts.harness.results.incidents import finding_of_incident, is_waiting
+from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.tally import Cause, Tally, overall
@@ -32,9 +32,6 @@ from ucm_cts.reference_models.verdicts import Verdicts
 
 SECONDS_FOR_CONFIRMATION = 60
 """How long all further runs may take; failures that were not run again by then count as they are."""
-
-WAITED = "drawn scenarios that waited for a start"
-"""The measure of how many scenarios hung in a call that may wait for a start, and say nothing (11.2.3)."""
 
 NOT_CONFIRMED = "failures that were not run again"
 """The measure of how many failures were not run again because the time was used up."""
@@ -128,10 +125,6 @@ class Campaign:
         if answer.incident is not None:
             execution = self._driver.revealed(answer)
             judged = list(self._judge_hang(answer, execution)) if answer.is_whole else []
-            if purpose.may_wait and is_waiting(execution):
-                self._tally.measures[WAITED] += 1
-                yield from judged
-                return
             finding = finding_of_incident(execution)
             if finding is not None and any(set(other.events) & set(finding.events) for other, _ in judged):
                 finding = None  # a property has found the same call, or operation, lacking

@@ -88,14 +88,11 @@ class Replayed:
 class Exploration:
     """Looks for failures with the scenarios that it draws, and adds them to a campaign. Use ``replay`` before ``explore``."""
 
-    def __init__(self, campaign: Campaign, seed: int, memory: Memory | None, may_wait: bool = False) -> None:
-        """``seed``: of the scenarios. ``memory``: the failures known so far, if any are kept. ``may_wait``: a call that waits for a start that
-        never comes is no incident.
-        """
+    def __init__(self, campaign: Campaign, seed: int, memory: Memory | None) -> None:
+        """``seed``: of the scenarios. ``memory``: the failures known so far, if any are kept."""
         self._statement: Statement = campaign.statement
         self._memory = memory
         self._campaign = campaign
-        self._may_wait = may_wait
         self._random = random.Random(f"exploration {seed}")
         self._all_rows = load_life_cycle().rows
         self._guide = Guide(load_life_cycle())
@@ -182,7 +179,7 @@ class Exploration:
 
     def _purpose(self, name: str, scenario: Scenario) -> TestPurpose:
         text = "A random scenario, drawn for this run."
-        return TestPurpose(name, "explored", text, (), ((name, scenario),), may_wait=self._may_wait)
+        return TestPurpose(name, "explored", text, (), ((name, scenario),))
 
     def _watch(self, answer: Answer, verdicts: Verdicts) -> None:
         self._rows |= verdicts.rows.keys()

@@ -22,7 +22,7 @@ def exploration_in(out: Path | None, campaign: Campaign, seed: int) -> Explorati
     kept = out / EXAMPLES if out is not None else None
     is_there = kept is not None and kept.is_dir() and not kept.is_symlink()
     memory = _memory(out, campaign.report()) if out is not None and is_there else None
-    return Exploration(campaign, seed, memory, may_wait=True)
+    return Exploration(campaign, seed, memory)
 
 
 def remember_in(out: Path, report: FrameworkReport) -> str:

@@ -224,6 +224,7 @@ def found_text(report: v.FrameworkReport, far: Progress, out: Path) -> Renderabl
         lines.append(
             Text(f"{waiting} scenarios hung in calls that may wait for a component to be started: no failure", "dim")
         )
+    lines += [Text(f"warning: {one_line(warning, 600)}", "yellow") for warning in report.warnings]
     if failures or incidents:
         lines += [Text(), Text.assemble("all     ", (str(out / FILE), "bold"), overflow="fold")]
     return Group(*lines)

@@ -83,7 +83,6 @@ class TestPurpose:
     ``scenarios``: with their names.
     ``draw``: the same scenarios with values drawn from a seed, within the vendor's readings.
     ``under``: only for vendors with these readings: ``option=value``, or several values with ``|`` between them.
-    ``may_wait``: a call in them may have to wait for a start that never comes; if it does, that is no incident.
     ``of_dimensions``: derived from the tables of dimensions (``suite/provocations.yaml`` and its like).
     """
 
@@ -96,7 +95,6 @@ class TestPurpose:
     scenarios: tuple[tuple[str, Scenario], ...]
     draw: Callable[[int, Mapping[str, str]], tuple[tuple[str, Scenario], ...]] | None = None
     under: tuple[str, ...] = ()
-    may_wait: bool = False
     of_dimensions: bool = False
 
 
