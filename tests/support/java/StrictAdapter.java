@@ -62,11 +62,16 @@ public final class StrictAdapter extends Adapter<StrictAdapter.Container> {
             if (implementation == null) {
                 throw new UcmError("no implementation " + name);
             }
+            if (!implementation.attributes().containsAll(attributes.keySet())) {
+                throw new UcmError(name + " lacks an attribute of " + attributes.keySet());
+            }
             number[0] = ++last;
             Body body = implementation.create().get();
             Failures failures = new Failures();
             failures.attempt(() -> {
-                attributes.forEach(body::setAttribute);
+                Map<String, String> values = new LinkedHashMap<>(implementation.defaults());
+                values.putAll(attributes);
+                values.forEach(body::setAttribute);
                 if (body instanceof Fragment fragment) {
                     fragment.setContainerInterface(() -> getComponents(container));
                 }
