@@ -57,7 +57,8 @@ def calls(here: Path) -> Iterator[int]:
 
 def interrupted(calls: int, first: signal.Signals, *options: str, again: int = 0) -> tuple[int, str, str, list[str]]:
     """Exit status, outputs and the children of a run that gets the signal once the framework waits, and ``again`` so often."""
-    command = [sys.executable, "-m", "ucm_cts", "run", "waiting:Waits", "--timeout", "60", "--out", "out", *options]
+    run = "run", "waiting:Waits", "--timeout", "60", "--out", "out", *options
+    command = ["env", "--default-signal", sys.executable, "-m", "ucm_cts", *run]  # a job in the background ignores some
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert select.select([calls], [], [], 60)[0], "the framework was never called"
         children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
