@@ -75,7 +75,7 @@ def cli() -> None:
 @click.option(
     "--explore",
     type=options.DrawnScenarios(or_none=True),
-    default="3s",
+    default="2s",
     show_default=True,
     help="How long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s.",
 )

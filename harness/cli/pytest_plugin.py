@@ -32,9 +32,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
     group.addoption(
         "--iut-explore",
-        default="3s",
+        default="2s",
         metavar="BUDGET",
-        help="how long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s (default: 3s)",
+        help="how long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s (default: 2s)",
     )
     group.addoption("--iut-in-process", action="store_true", help="no host process: for debuggers and sanitizers")
 
