@@ -159,9 +159,10 @@ class _TraceReader:
         self.interactions.operated(event)
         if ongoing is not None and ongoing.step_number == event.step:
             conclude(runtime, ongoing, event, self.monitor.expected)
-            self.evaluate(self.table.ended[ongoing.operation], ongoing)
+            ended = self.table.ended_after_removal if ongoing.is_after_removal else self.table.ended
+            self.evaluate(ended[ongoing.operation], ongoing)
             unsettled = self.table.unsettled[ongoing.operation]
-            if unsettled and not ongoing.judged and not verdicts.findings:
+            if unsettled and not ongoing.judged and not ongoing.is_after_removal and not verdicts.findings:
                 self.evaluate(unsettled, ongoing)
             if verdicts.suspended:
                 self.suspend()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+import resource
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -233,7 +234,7 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
         raise WrongUse(
             f"{file} is a model and no scenario; the report shows the command that gives it to the tool chain again"
         )
-    scripts = read_scripts(file)
+    scripts = read_scripts(file, may_overlap=True)
     endpoint = locate(adapter, in_process)
     monitor = Monitor(load_life_cycle(), stated_by(ics, adapter).ics)
     titles = {requirement.id: requirement.title for requirement in load_requirements()}
@@ -276,10 +277,26 @@ def _check_current_folder() -> None:
         raise WrongUse(f"the current folder cannot be used: {error.strerror}; go to another one") from None
 
 
+_OPEN_FILES = 64
+"""Hosts and their channels, the report and what is loaded need fewer open files than this."""
+
+
+def _permit_open_files() -> None:
+    """Raise the limit of open files as far as needed. Raises ``WrongUse`` if the system does not permit that."""
+    usual, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if usual == resource.RLIM_INFINITY or usual >= _OPEN_FILES:
+        return
+    if most != resource.RLIM_INFINITY and most < _OPEN_FILES:
+        needed = f"{_OPEN_FILES} are needed: ulimit -n {_OPEN_FILES}"
+        raise WrongUse(f"at most {most} files may be open at once; {needed}, or what your system has for that")
+    resource.setrlimit(resource.RLIMIT_NOFILE, (_OPEN_FILES, most))
+
+
 def main() -> None:
     """The console entry point: turns an error into one clear line and an exit status."""
     try:
         _check_current_folder()
+        _permit_open_files()
         cli(standalone_mode=False)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)

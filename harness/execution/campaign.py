@@ -33,6 +33,9 @@ from ucm_cts.reference_models.verdicts import Verdicts
 SECONDS_FOR_CONFIRMATION = 60
 """How long all further runs may take; failures that were not run again by then count as they are."""
 
+SEEN_OFTEN = 10
+"""A failure that so many runs of scenarios showed is no accident, even if the run that is to confirm it does not show it."""
+
 NOT_CONFIRMED = "failures that were not run again"
 """The measure of how many failures were not run again because the time was used up."""
 
@@ -187,6 +190,7 @@ class Campaign:
         ``passes``, one scenario of each requirement that was kept and depends on time.
 
         The runs have another timeout and another schedule. A result that changes is unstable and gives no verdict.
+        A failure that ``SEEN_OFTEN`` runs showed is not run again: one more run cannot refute them.
         """
         began = time.monotonic()
         last = began + SECONDS_FOR_CONFIRMATION
@@ -197,7 +201,7 @@ class Campaign:
                 continue
             if failure.finding.rule in leftovers.HOST_CHECKS:  # dozens of runs have shown it
                 continue
-            if failure.occurrences > 1 and requirement in confirmed:
+            if failure.occurrences >= SEEN_OFTEN or (failure.occurrences > 1 and requirement in confirmed):
                 continue
             if time.monotonic() > last:
                 self._tally.measures[NOT_CONFIRMED] += 1

@@ -111,8 +111,11 @@ def load_scripts(directory: Path = SCENARIOS) -> list[Script]:
     return scripts
 
 
-def read_scripts(path: Path) -> list[Script]:
-    """The script, or list of scripts, in the file at ``path``. Raises ``DocumentError`` with file and line."""
+def read_scripts(path: Path, may_overlap: bool = False) -> list[Script]:
+    """The script, or list of scripts, in the file at ``path``. Raises ``DocumentError`` with file and line.
+
+    ``may_overlap``: whether operations of containers may overlap, as they do in derived scenarios of contention.
+    """
     raw, lines = read_lines(path)
     many = isinstance(raw, list)
     scripts = read(path, list[Script]) if many else [read(path, Script)]
@@ -120,7 +123,8 @@ def read_scripts(path: Path) -> list[Script]:
         raise DocumentError(path, 1, "holds no scenario")
     for index, script in enumerate(scripts):
         place = f"$[{index}]" if many else "$"
-        for where, problem in problems(script):
+        overlapping = [] if may_overlap else _overlapping(script)
+        for where, problem in (*problems(script), *overlapping):
             raise DocumentError(path, lines.get(f"{place}{where}", lines.get(place)), problem)
     return scripts
 
@@ -203,9 +207,12 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
                 found.append((where, f"no earlier step runs on thread '{worker}'"))
         if step.thread:
             workers.add(step.thread)
-    for index, worker in overlaps(script.steps):
-        found.append((f".steps[{index}]", f"'{worker}' may still be operating a container; join it first"))
     return found
+
+
+def _overlapping(script: Script) -> list[tuple[str, str]]:
+    still = "may still be operating a container; join it first"
+    return [(f".steps[{index}]", f"'{worker}' {still}") for index, worker in overlaps(script.steps)]
 
 
 def _list(names: Iterable[str]) -> str:

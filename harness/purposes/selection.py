@@ -68,6 +68,13 @@ def load_purposes(profile: str, *readings: str, extra_states: int = 0) -> tuple[
     return tuple(purpose for purpose in (*_all_purposes(profile), *systematic, *data) if _is_for(purpose, known))
 
 
+def plain_purposes(profile: str, *readings: str) -> tuple[TestPurpose, ...]:
+    """Those of ``load_purposes`` that are quickly made: from neither dimensions nor systematic suites."""
+    known = _readings(readings)
+    data = data_purposes(known) if "core" in PARTS[profile] else []
+    return tuple(purpose for purpose in (*_written(profile), *_combined(profile), *data) if _is_for(purpose, known))
+
+
 def _is_for(purpose: TestPurpose, readings: dict[str, str]) -> bool:
     wanted = (condition.partition("=") for condition in purpose.under)
     return all(readings[option] in values.split("|") for option, _, values in wanted)
@@ -80,9 +87,21 @@ def _readings(declared: tuple[str, ...]) -> dict[str, str]:
 
 @functools.cache
 def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
+    sources = (*_DIMENSIONS, *(_DIMENSIONS_OF_CORE if "core" in PARTS[profile] else ()))
+    derived = (dataclasses.replace(purpose, of_dimensions=True) for source in sources for purpose in source())
+    return (*_written(profile), *derived, *_combined(profile))
+
+
+@functools.cache
+def _combined(profile: str) -> tuple[TestPurpose, ...]:
+    return tuple(purpose for source in _CORE for purpose in source()) if "core" in PARTS[profile] else ()
+
+
+@functools.cache
+def _written(profile: str) -> tuple[TestPurpose, ...]:
     clauses = {r.id: r.clause for r in load_requirements() if r.profile in PARTS[profile]}
     probes = load_probe_types()
-    scripted = [
+    scripted = (
         TestPurpose(
             script.scenario,
             clauses[script.exercises[0]],
@@ -93,19 +112,13 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         )
         for script in load_scripts()
         if script.exercises[0] in clauses
-    ]
-    of_core = "core" in PARTS[profile]
-    combined = [purpose for source in _CORE for purpose in source()] if of_core else []
-    sources = (*_DIMENSIONS, *(_DIMENSIONS_OF_CORE if of_core else ()))
-    derived = [dataclasses.replace(purpose, of_dimensions=True) for source in sources for purpose in source()]
+    )
     return (
         *scripted,
         *generated_purposes(load_life_cycle()),
         *purposes_of("start"),
         *purposes_of("peers"),
         *unforeseen_purposes(),
-        *derived,
-        *combined,
     )
 
 

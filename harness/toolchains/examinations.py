@@ -70,6 +70,7 @@ def examination_for(
             expression,
             models,
             not_applicable(statement),
+            _may_be_refused(statement, IMPOSSIBLE_IN_IDL),
         )
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
@@ -80,7 +81,8 @@ def examination_for(
         )
     compare = functools.partial(_compare_cpp, standard, statement.readings, how)
     not_asked = applicability.not_applicable(statement)
-    return Generation(compare, GENERATED, DECORATION_OF_CPP, renaming, expression, models, not_asked)
+    refusable = _may_be_refused(statement, IMPOSSIBLE_IN_CPP)
+    return Generation(compare, GENERATED, DECORATION_OF_CPP, renaming, expression, models, not_asked, refusable)
 
 
 WITH_NATIVES = frozenset({"idl_natives"})
@@ -91,6 +93,21 @@ def _asked(task: Task, statement: Statement, models: Collection[str] | None) -> 
     """The models that code is generated from, by name."""
     names = frozenset(mapping_models() if models is None else models)
     return names if task == "idl" and statement.meets("native-types=supported") else names - WITH_NATIVES
+
+
+IMPOSSIBLE_IN_IDL: Mapping[str, tuple[str, str]] = {
+    "large_constants": ("idl-ulonglong=unsigned-long", "idl-ulonglong"),
+    "multiples": ("idl-policy-getters=definition", "idl-policy-getters"),
+}
+"""Models of which a reading makes no IDL, or leaves open what it makes: that reading, and its interpretation."""
+
+IMPOSSIBLE_IN_CPP: Mapping[str, tuple[str, str]] = {"multiples": ("cpp-get-tp-name=definition", "policy-getter-names")}
+"""The same for C++."""
+
+
+def _may_be_refused(statement: Statement, impossible: Mapping[str, tuple[str, str]]) -> Mapping[str, str]:
+    """The models that the vendor may refuse by what is declared, and the interpretation that allows it."""
+    return {name: allowed_by for name, (reading, allowed_by) in impossible.items() if statement.meets(reading)}
 
 
 def _compare_idl(readings: Mapping[str, str], model: Model, files: Mapping[str, str]) -> Comparison:

@@ -52,13 +52,16 @@ class Generation:
         expression: str = "",
         only: Collection[str] | None = None,
         not_applicable: Mapping[str, str] = {},
+        may_be_refused: Mapping[str, str] = {},
     ) -> None:
         """``generates`` are the requirement, and its rule, that files can be had of a legal model at all; ``decoration`` are those
         that annotations and comments change nothing. Of the models
         only those of ``only``, if there is such a list, whose name holds a word of ``expression``, or all if none does: then
-        only what is said of requirements that hold one of the words. ``not_applicable`` are requirements that do not apply, and why.
+        only what is said of requirements that hold one of the words. ``not_applicable`` are requirements that do not apply, and why, and
+        ``may_be_refused`` models that a vendor may refuse, by name, and the interpretation that says so.
         """
         self.not_applicable = not_applicable
+        self._may_be_refused = may_be_refused
         self._compare = compare
         self._generates = generates
         self._decoration = decoration
@@ -117,8 +120,9 @@ class Generation:
         if incident is not None and incident.kind not in FRAMEWORK_INCIDENTS - {"exit"}:
             yield Fact(requirement, (name,), undecided=f"no answer: {incident.kind}: {incident.detail}")
             return
-        if response.accepted is False and name.startswith(OPEN):
-            why = "it was refused, which its names allow (interpretation safe-names)"
+        allowed_by = "safe-names" if name.startswith(OPEN) else self._may_be_refused.get(name.removeprefix(PREFIX), "")
+        if response.accepted is False and allowed_by:
+            why = f"it was refused, which is allowed (interpretation {allowed_by})"
             yield Fact(requirement, (name,), undecided=why, leaves_others=True, measure="models that may be refused")
             return
         if not response.accepted or not response.files:

@@ -102,12 +102,14 @@ class Interactions:
         """Is a port element just being attached to a connector, or detached?"""
         return any(isinstance(o.step, s.Attach | s.Detach) for o in self.in_progress.values())
 
-    def has_left(self, delivery: Delivery) -> bool:
-        """Was the receiver detached from the link, or removed, before the first call with these values was made?"""
+    def has_left(self, delivery: Delivery, restarted: bool = False) -> bool:
+        """Was the receiver detached from the link, or removed, before the first call with these values was made?
+
+        With ``restarted``: also before the caller was started, so that it got no reference to the receiver.
+        """
         member, link, arguments = delivery.receiver, delivery.link, delivery.enter.arguments
-        moment = min(
-            (c.request.n for c in self.calls if c.link is link and c.request.arguments == arguments), default=0
-        )
+        calls = [c for c in self.calls if c.link is link and c.request.arguments == arguments]
+        moment = min((c.started if restarted else c.request.n for c in calls), default=0)
         ends = (
             [e for e in link.ends if e.member is member and e.port == delivery.enter.port] if link is not None else []
         )
@@ -169,7 +171,8 @@ class Interactions:
         """A body calls a method."""
         caller = self._runtime.bodies.get(event.body)
         ready = caller is not None and caller.serving
-        call = MethodCall(event, business, caller, self._link_of(caller, event.port, SENDERS), ready)
+        started = self._runtime.startups.get(event.body, (0, 0))[0]
+        call = MethodCall(event, business, caller, self._link_of(caller, event.port, SENDERS), ready, started)
         if call.link is not None:
             call.broken = call.link.broken
             call.targets = [(end, end.member.serving) for end in call.link.live(*TAKERS)]

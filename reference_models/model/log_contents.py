@@ -42,6 +42,11 @@ class Threshold:
         """Is it certain that there is such a severity?"""
         return severity in self.severities
 
+    @property
+    def records_all(self) -> bool:
+        """Is every severity recorded?"""
+        return self.least not in _RANKS
+
     def records(self, severity: str) -> bool:
         """Is it recorded?"""
         return _RANKS.get(severity, 0) >= _RANKS.get(self.least, 0)
@@ -85,7 +90,7 @@ class Message:
 class Tracing:
     """Calls of ``method`` that are traced: each time, at one of its two ends, by one policy. ``due`` of them have their
     record in the log sooner or later, ``possible`` ones may have one, ``barred`` ones are below the threshold. ``others`` are
-    ends of such calls that are not traced. ``ports`` says how many are due where.
+    ends of such calls that are not traced. ``ports`` says how many are due where, ``severities`` which severities were configured.
     """
 
     method: str
@@ -261,10 +266,11 @@ def _tracings(reading: LogReading, runtime: ObservedRuntime) -> dict[str, Tracin
 
 
 def _add(tracing: Tracing, policy: Policy, over: bool, threshold: Threshold) -> bool:
-    """A call is traced by this policy; returns whether its record is due."""
+    """A call is traced by this policy; returns whether its record is due. Without parameters it may have any severity."""
     severity = policy.parameters.get(s.LOG_SEVERITY, "")
-    tracing.severities.add(severity)
-    if not (over and threshold.knows(severity)):
+    if policy.parameters:
+        tracing.severities.add(severity)
+    if not over or not (threshold.knows(severity) if policy.parameters else threshold.records_all):
         tracing.possible += 1
     elif threshold.records(severity):
         tracing.due += 1

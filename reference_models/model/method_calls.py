@@ -69,6 +69,7 @@ class MethodCall:
     """A body's call of a method.
 
     ``ready``: the caller was operational.
+    ``started``: when its last on_startup began (``n``), which gave it its references; 0 if it had none.
     ``prepared``: all ends were attached before the components there were started.
     ``broken``: where its link was broken when it was made.
     ``targets``: the other ends that were attached then, with whether each was operational.
@@ -82,6 +83,7 @@ class MethodCall:
     caller: Member | None
     link: LinkState | None
     ready: bool
+    started: int = 0
     prepared: bool = False
     broken: str = ""
     targets: list[tuple[End, bool]] = field(default_factory=list)

@@ -115,6 +115,7 @@ class OperationInProgress:
     ``roles``: each instance concerned with the row of the life-cycle table that stands for it (the instance is None where
     the row is about one that does not exist).
     ``judged``: False where the model cannot predict.
+    ``is_after_removal``: its container, or the runtime, has been removed: the text says nothing about it.
     ``forgiving``: it may end in UCM_ERROR for a reason that the rows do not show.
     ``lost``: the state that it leaves is not known.
     ``callbacks``: the entries meanwhile, with their ``hooks``, and the same ``by_body``.
@@ -132,6 +133,7 @@ class OperationInProgress:
     call: int = 0
     roles: list[tuple[Member | None, Row]] = field(default_factory=list)
     judged: bool = True
+    is_after_removal: bool = False
     forgiving: bool = False
     lost: bool = False
     callbacks: list[Enter] = field(default_factory=list)

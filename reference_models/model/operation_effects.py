@@ -77,7 +77,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
             for connection in twin.connections:
                 connection.live = False
     twins = [m for m in twins if not m.gone]
-    for unsure in (member, *twins) if twins or declaration is None else ():
+    for unsure in (member, *twins) if twins or declaration is None or ongoing.is_after_removal else ():
         unsure.suspended = True
         unsure.mark_doubtful()
     runtime.enrol(member)
@@ -96,7 +96,7 @@ def _found(runtime: Runtime, ongoing: OperationInProgress, step: s.GetPortElemen
         recognised = isinstance(end.value, Reference) or end.value == "opaque"
         reference: MaybeReference = end.value if recognised else None  # type: ignore[assignment]
         owner = runtime.provider_of(reference)
-        runtime.references[step.bind] = (reference, owner or ongoing.subject)
+        runtime.references[step.bind] = (reference, owner or ongoing.subject or runtime.members.get(step.id))
         runtime.ports[step.bind] = reference.port if isinstance(reference, Reference) and owner else step.port
 
 

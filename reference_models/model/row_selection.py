@@ -12,7 +12,7 @@ from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 from ucm_cts.reference_models.model.links import differ, is_misfit
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
-from ucm_cts.reference_models.model.runtime import Connection, Container, Member, raises
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member, has_meaningless_values, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
@@ -50,7 +50,8 @@ class RowSelection:
         name = s.MANAGER if operation in _OF_THE_MANAGER else step.container  # type: ignore[union-attr]
         container = runtime.containers.get(name) or Container(name, removed=True)
         ongoing = OperationInProgress(number, step, operation, container, call)
-        if runtime.destroyed or container.doubtful or (container.removed and operation != "remove_container"):
+        ongoing.is_after_removal = runtime.destroyed or (container.removed and operation != "remove_container")
+        if ongoing.is_after_removal or container.doubtful:
             ongoing.judged = False
             return ongoing
         self._select[operation](runtime, ongoing, step)
@@ -108,8 +109,8 @@ class RowSelection:
             ongoing.forgiving = (
                 True  # whether it may be refused is the matter of policy_supported and execution_policy_given
             )
-        if declaration is not None and not step.attributes.keys() <= {*declaration.attributes, *declaration.defaults}:
-            ongoing.forgiving = True  # values that mean nothing are refused or left alone
+        if declaration is not None and has_meaningless_values(declaration, step):
+            ongoing.forgiving = True
         self._role(ongoing, None, "absent", condition)
 
     def _remove(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.RemoveComponent) -> None:
@@ -214,6 +215,9 @@ class RowSelection:
             return
         ongoing.connection = connection
         member = ongoing.subject = connection.client
+        if member.gone:  # it is open whether its connection was left
+            ongoing.judged = False
+            return
         ongoing.unclear_if(_raises_when_disconnected(member) or connection.live is None or connection.ambiguous)
         if member.state == "ready":
             condition = ""

@@ -12,7 +12,16 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario
+from ucm_cts.adapters.contract.scenario import (
+    MANAGER,
+    NIL,
+    UNKNOWN,
+    AddComponent,
+    Declaration,
+    Hook,
+    RaiseError,
+    Scenario,
+)
 from ucm_cts.adapters.contract.trace import MaybeReference, Reference, Skip
 from ucm_cts.reference_models.model.life_cycle import State
 
@@ -225,6 +234,11 @@ class Container:
 def lane(component: str, instance: int) -> str:
     """How findings and diagrams name the ``instance``-th body of ``component``."""
     return component if instance == 1 else f"{component}#{instance}"
+
+
+def has_meaningless_values(declaration: Declaration, step: AddComponent) -> bool:
+    """Is a value given for an attribute that the implementation does not have? It may be refused, or left alone."""
+    return not step.attributes.keys() <= {*declaration.attributes, *declaration.defaults}
 
 
 def raises(declaration: Declaration, *hooks: Hook) -> bool:

@@ -31,9 +31,11 @@ def has_several_clocks(declaration: Declaration | None) -> bool:
 
 
 def port_traces(declaration: Declaration | None, port: str, method: str) -> list[Policy]:
-    """The policies that have calls of ``method`` through ``port`` recorded; one without port is about all of them."""
+    """The policies that have calls of ``method`` through ``port`` recorded; one without port is about all ports, one without
+    parameters about all methods (core-parameters).
+    """
     traces = policies_of(declaration, s.PORT_TRACE)
-    return [p for p in traces if p.port in (None, port) and method in methods_named(p)]
+    return [p for p in traces if p.port in (None, port) and (not p.parameters or method in methods_named(p))]
 
 
 def methods_named(policy: Policy) -> set[str]:

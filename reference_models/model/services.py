@@ -8,7 +8,7 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
-from ucm_cts.reference_models.model.messages import counts
+from ucm_cts.reference_models.model.messages import counts, settling_time
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import NO_ID, Member
@@ -40,7 +40,9 @@ def service_calls(runtime: ObservedRuntime) -> list[ServiceCall]:
 
 def _service_call(runtime: ObservedRuntime, call: MethodCall) -> ServiceCall | None:
     link = call.link
-    if link is None or link.connector != s.SERVICE_CONNECTOR or not call.prepared or not call.ready or call.broken:
+    if link is None or link.connector != s.SERVICE_CONNECTOR or not call.prepared or not call.ready:
+        return None
+    if call.broken or _may_be_broken(runtime, call):
         return None
     clients = [
         end
@@ -56,6 +58,22 @@ def _service_call(runtime: ObservedRuntime, call: MethodCall) -> ServiceCall | N
     others = [c for c in client.member.connections if c.port == client.port and c.id != NO_ID]
     unclear = others or _serves_several(runtime, server.member, server.port) or _comes_back(call, server.member)
     return found if found.method is not None and not unclear and not counts(server.member) else None
+
+
+def _may_be_broken(runtime: ObservedRuntime, call: MethodCall) -> bool:
+    """Was anything broken when it was made, or mended so lately that the connector need not know?
+
+    Connections may share what is broken.
+    """
+    interactions = runtime.interactions
+    if not any(link.was_broken for link in interactions.links.values()):
+        return False
+    last: dict[str, Operation] = {}
+    for o in interactions.operations:
+        if isinstance(o.step, s.Break | s.Mend) and o.begin.n < call.request.n and not isinstance(o.end, Raise):
+            last[o.step.link] = o
+    known_by = call.request.t - settling_time(runtime)
+    return any(isinstance(o.step, s.Break) or o.end is None or o.end.t > known_by for o in last.values())
 
 
 def _serves_several(runtime: ObservedRuntime, member: Member | None, port: str | None) -> bool:
@@ -94,12 +112,12 @@ def is_disturbed(runtime: ObservedRuntime, one: ServiceCall) -> bool:
 
 
 def _takes_away(runtime: ObservedRuntime, one: ServiceCall, operation: Operation) -> bool:
-    """Does it undo the call's connection, or break or mend it?"""
+    """Does it undo the call's connection, or break or mend any?"""
     step = operation.step
-    if not isinstance(step, s.Break | s.Mend | s.Detach) or step.link != one.link.name:
-        return False
+    if not isinstance(step, s.Detach):
+        return isinstance(step, s.Break | s.Mend)
     ends = (one.client, one.server)
-    return not isinstance(step, s.Detach) or any(
+    return step.link == one.link.name and any(
         (runtime.members.get(step.id), step.port) == (end.member, end.port) for end in ends
     )
 
@@ -185,14 +203,23 @@ def what_sets_apart(
     runtime: ObservedRuntime, one: ServiceCall, served: Sequence[ServiceCall]
 ) -> Literal["", "inherited", "second server", "client"]:
     """How a call that is not carried out differs from those that are ``served``: by an inherited method, a connection that
-    was to have a second server, or another client.
+    was to have a second server, or another client; not if its connection had been mended.
     """
     if one.is_inherited:
         return "inherited"
     if runtime.interactions.has_refused(one.link, "server"):
         return "second server"
+    if _was_mended(runtime, one):
+        return ""
     others = any(other.link is one.link and other.client is not one.client for other in served)
     return "client" if others else ""
+
+
+def _was_mended(runtime: ObservedRuntime, one: ServiceCall) -> bool:
+    return any(
+        isinstance(o.step, s.Mend) and o.step.link == one.link.name and o.begin.n < one.call.request.n
+        for o in runtime.interactions.operations
+    )
 
 
 def new_types(runtime: ObservedRuntime, step: s.Link) -> list[AnyType]:

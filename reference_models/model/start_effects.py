@@ -28,19 +28,20 @@ def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Star
         failing = any(m.raises("on_startup") for m in container.live_members())
         half_way = any(not ongoing.received(m, "on_shutdown") for m in own)
         unseen = ongoing.forgiving and all(m.doubtful for m in container.live_members())
+        taken_back = {m.container.name: m.container for m in everywhere if ongoing.received(m, "on_shutdown")}
         unclear = container.started is not False or failing or half_way or unseen
-        if unclear and (container.started is not True or own):
+        if unclear and (container.started is not True or own or container.name in taken_back):
             container.suspend()
             container.failed = ongoing.step_number, ongoing.call, end.n
-        for member in reached:
-            if member.container is not container:
-                member.container.suspend()
+        for other in (*taken_back.values(), *(m.container for m in reached)):
+            if other is not container:
+                other.suspend()
         return
     if container.started is not True:
         container.startup_order = []
     for member in container.live_members():
         for callback in ongoing.received(member, "on_startup"):
-            _resolve(member, callback)
+            _resolve(member, callback, runtime.shows_missing)
         unclear = member.lingering or member.doubtful or member.instance is None
         member.suspended = unclear or member.raises("on_startup")
     order = {c.body: n for n, c in enumerate(ongoing.callbacks) if c.hook == "on_startup"}
@@ -112,14 +113,20 @@ def handed_over(startup: Enter) -> dict[str, list[MaybeReference]]:
     return by_port
 
 
-def _resolve(member: Member, startup: Enter) -> None:
-    """What on_startup handed over shows which of the doubtful connections stand."""
+def _resolve(member: Member, startup: Enter, shows_missing: bool) -> None:
+    """What on_startup handed over shows which of the doubtful connections stand. A proxy shows that only in a framework that
+    ``shows_missing`` connections, and never of one whose provider is gone: there may be nothing behind it.
+    """
     given = handed_over(startup)
     for connection in member.connections:
         if connection.live is not None:
             continue
         of_port = [c for c in member.connections if c.port == connection.port and c.live is not False]
         references = given.get(connection.port, [])
+        outlives = connection.provider is not None and connection.provider.gone
+        proxies = bool(references) and not any(isinstance(r, Reference) for r in references)
+        if proxies and (outlives or not shows_missing):
+            continue
         if len(references) == len(of_port):
             connection.live = True
         elif not references:

@@ -10,7 +10,7 @@ from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
-from ucm_cts.reference_models.model.runtime import Member, lane, raises
+from ucm_cts.reference_models.model.runtime import Member, has_meaningless_values, lane, raises
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _RUN_IS_CALLED = "R-10.1.3.2-01"
@@ -34,7 +34,9 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
         return ()
     if isinstance(ongoing.step, s.AddComponent):
         declaration = declarations.get(ongoing.step.component)
-        is_open = declaration is not None and not ex.protection_of(declaration) and not declaration.plan
+        if declaration is None or has_meaningless_values(declaration, ongoing.step):
+            return ()
+        is_open = not ex.protection_of(declaration) and not declaration.plan
         if is_open and ongoing.container.started is False and isinstance(ongoing.end, Raise):
             return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component)
         return ()

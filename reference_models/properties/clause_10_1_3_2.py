@@ -13,7 +13,7 @@ from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
-from ucm_cts.reference_models.model.runtime import lane, raises
+from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane, raises
 from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -198,8 +198,10 @@ def policy_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
     """A component with an execution policy is added and started like any other."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        may_be_added = ongoing.container.started is False and not ongoing.container.removed
-        if isinstance(ongoing.end, Raise) and declaration is not None and may_be_added:
+        may_be_added = ongoing.container.started is False
+        if not isinstance(ongoing.end, Raise) or declaration is None or not may_be_added:
+            return
+        if not has_meaningless_values(declaration, ongoing.step):
             yield from _refused(check, declaration, ongoing.end)
         return
     if not isinstance(ongoing.end, Return) or not ongoing.judged:

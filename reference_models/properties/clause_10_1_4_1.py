@@ -13,7 +13,7 @@ from ucm_cts.reference_models.model import clock_readings as clocks
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
-from ucm_cts.reference_models.model.runtime import lane
+from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, only_service, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -77,7 +77,7 @@ def one_clock(check: Property, runtime: ObservedRuntime, ongoing: OperationInPro
             return
         if has_several_clocks(declaration):
             yield check.kept()
-        elif only_service(declaration, s.CLOCK):
+        elif only_service(declaration, s.CLOCK) and not has_meaningless_values(declaration, ongoing.step):
             yield check.refused("add_component", ongoing.end, expected="a component with one clock is added")
         return
     members = [m for m in ongoing.container.live_members() if has_several_clocks(m.declaration)]

@@ -13,7 +13,7 @@ from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
-from ucm_cts.reference_models.model.runtime import lane
+from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane
 from ucm_cts.reference_models.model.service_policies import (
     TRACES,
     has_several_clocks,
@@ -81,10 +81,12 @@ def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
 def traces_supported(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """A component may have any number of trace policies."""
     step = ongoing.step
-    declaration = runtime.scenario.components.get(step.component) if isinstance(step, s.AddComponent) else None
-    if declaration is None or not isinstance(ongoing.end, Raise) or ongoing.container.started is not False:
+    if not isinstance(step, s.AddComponent) or not isinstance(ongoing.end, Raise):
         return ()
-    if only_service(declaration, *TRACES):
+    declaration = runtime.scenario.components.get(step.component)
+    if declaration is None or ongoing.container.started is not False:
+        return ()
+    if only_service(declaration, *TRACES) and not has_meaningless_values(declaration, step):
         names = ", ".join(policy.definition for policy in policies_of(declaration, *TRACES))
         return check.refused("add_component", ongoing.end, expected=f"a component with the policies {names} is added")
     return ()
@@ -163,7 +165,8 @@ def port_trace_recorded(check: Property, runtime: ObservedRuntime, contents: log
             yield _wrong_number(check, contents, tracing, problem)
         elif tracing.due and len(tracing.records) >= tracing.due:
             yield check.kept()
-            yield check.kept(_NAMED_METHODS)
+            if tracing.severities:
+                yield check.kept(_NAMED_METHODS)
 
 
 def _number_problem(
@@ -216,7 +219,7 @@ def _wrong_number(check: Property, contents: logs.Contents, tracing: logs.Tracin
         observed=f"{len(tracing.records)} records contain its name",
         at=contents.events,
         step=contents.step,
-        requirement=_PORT_TRACE if nothing else _NAMED_METHODS,
+        requirement=_PORT_TRACE if nothing or not tracing.severities else _NAMED_METHODS,
     )
 
 
@@ -271,7 +274,7 @@ def _unexplained(runtime: ObservedRuntime, contents: logs.Contents) -> int:
 def port_trace_severity(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """Records of a port trace have the severity of its log_severity."""
     for tracing in contents.tracings.values():
-        if not tracing.is_traced or not tracing.records:
+        if not tracing.severities or not tracing.records:
             continue
         if _has_too_many(runtime, contents, tracing):
             continue  # it is not known which of them are of traced calls

@@ -60,23 +60,34 @@ def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
 
 @property_at("waited", _INDEPENDENCE, timed=True)
 def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
-    """Whether the others have the message while one of its receivers is held."""
-    interactions = runtime.interactions
-    held = {event.body for event in interactions.held}
+    """Whether the others have the message while one of its receivers is held.
+
+    The hold may end by itself shortly before the wait does: the patience of both is the same, and the hold began earlier.
+    """
+    held = {event.body for event in runtime.interactions.held}
+    patience = runtime.scenario.patience * 900_000
     for call in msg.messages(runtime):
-        holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
-        own = {member.body for member in holding}
+        holding = [d for d in call.deliveries if _holds(call, d, patience)]
         answered_otherwise = call.reply is not None and call.code != msg.OK
-        if not held or not held <= own or not msg.is_whole(runtime, call) or answered_otherwise:
+        if not held or not held <= {d.enter.body for d in holding}:
             continue
-        if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
+        if not msg.is_whole(runtime, call) or answered_otherwise or timeout.t - call.request.t < patience:
             continue
-        others = [end for end in msg.lasting(runtime, call) if end.member not in holding and msg.is_well(end.member)]
-        missing = [end for end in others if not msg.was_delivered(call, end)]
+        until = min(d.exit.n if d.exit is not None else timeout.n for d in holding)
+        keeping = {d.receiver for d in holding}
+        others = [end for end in msg.lasting(runtime, call) if end.member not in keeping and msg.is_well(end.member)]
+        missing = [e for e in others if all(d.enter.n >= until for d in call.delivered_to(e.member, e.port))]
         if missing and not (yield from takes(runtime, "slow-receiver", "shared")):
             yield _missing(check, _INDEPENDENCE, call, missing, "they wait for one that is slow", timeout)
         elif others and not missing:
             yield Taken("slow-receiver", "independent")
+
+
+def _holds(call: MethodCall, delivery: Delivery, patience: float) -> bool:
+    """Is its receiver inside, or was it held there for so many nanoseconds after the push?"""
+    if delivery.receiver is None or delivery.exit is None:
+        return delivery.receiver is not None
+    return delivery.was_held and delivery.exit.t - call.request.t >= patience
 
 
 @property_at("waited", _EMITTERS, timed=True)

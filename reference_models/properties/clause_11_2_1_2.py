@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ucm_cts.adapters.contract.scenario import Connect
 from ucm_cts.adapters.contract.trace import MaybeReference, Reference
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
@@ -24,7 +25,8 @@ def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) 
         return ()
     given = handed_over(event)
     again = member.startups > 0
-    problem = _problem(member, given)
+    changing = ongoing.step.port if ongoing is not None and isinstance(ongoing.step, Connect) else ""
+    problem = _problem(member, given, changing if ongoing is not None and ongoing.subject is member else "")
     if problem is None:
         if member.live_connections():
             return (check.kept(_AGAIN if again else _HANDED_OVER), check.kept(), check.kept(_ONE_REFERENCE))
@@ -40,15 +42,18 @@ def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) 
     )
 
 
-def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[str, str, str, str] | None:
-    """Requirement, cause, expected and observed of the first thing wrong with what was handed over."""
+def _problem(member: Member, given: dict[str, list[MaybeReference]], changing: str) -> tuple[str, str, str, str] | None:
+    """Requirement, cause, expected and observed of the first thing wrong with what was handed over.
+
+    ``changing``: the port that is being connected; what is handed over for it may be of before or of afterwards.
+    """
     required = (*member.declaration.requires, *policy_elements(member.declaration, *SERVICES))
     foreign = [p for p in given if p not in required]
     if foreign:
         names = ", ".join(required) or "nothing"
         return _HANDED_OVER, "name", f"dependencies named {names}", f"a dependency named {foreign[0]}"
     for port in member.declaration.requires:
-        if given.get(port) == [c.reference for c in member.connections if c.port == port]:
+        if port == changing or given.get(port) == [c.reference for c in member.connections if c.port == port]:
             continue  # the common case: what was connected, and what of it was undone is no_dangling_reference's matter
         connections = [c for c in member.connections if c.port == port and c.live is not False]
         certain = [c for c in connections if c.live]

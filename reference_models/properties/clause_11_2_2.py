@@ -45,7 +45,7 @@ _FROM_TABLE = (
 )
 
 
-@property_at("ended", *DECLARED.values())
+@property_at("ended", *DECLARED.values(), even_after_removal=True)
 def declared_errors(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Nothing but the declared exceptions leaves an operation."""
     if runtime.destroyed:  # there is no runtime any more that could answer

@@ -30,7 +30,7 @@ _FROM_TABLE = (
 )
 
 
-@property_at("ended", *_FROM_TABLE)
+@property_at("ended", *_FROM_TABLE, even_after_removal=True)
 def callbacks(check: Property, runtime: ObservedRuntime, ongoing: op.OperationInProgress) -> Concluded:
     """Each instance receives exactly the callbacks that the life-cycle table asks for, in its order."""
     outcome = ongoing.outcome

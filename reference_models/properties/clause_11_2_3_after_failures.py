@@ -51,7 +51,8 @@ def nobody_dropped(check: Property, runtime: ObservedRuntime, ongoing: Operation
             return ()
         members: Iterable[Member] = container.live_members()
     elif isinstance(ongoing.end, Return) and not runtime.destroyed:
-        members = [m for c in runtime.containers.values() for m in c.live_members()]
+        there = [c for c in runtime.containers.values() if not c.removed]  # what is added to another one is open
+        members = [m for c in there for m in c.live_members()]
     else:
         return ()
     removes = _REMOVES_ALL if isinstance(step, s.RemoveContainer) else _DESTROYS_ALL

@@ -64,6 +64,8 @@ class Property:
     ``evaluate``: a pure function of this property and what the monitor has at ``moment``; yields what it concludes.
     ``timed``: whether it depends on durations, so that a machine that stood still may be the reason of a finding.
     ``feature``: it applies to scenarios that use this; empty for all.
+    ``even_after_removal``: whether it is checked for operations on a container that has been removed as well, of which the text
+    says nothing.
     """
 
     name: str
@@ -73,6 +75,7 @@ class Property:
     evaluate: Evaluate
     timed: bool = False
     feature: Feature = ""
+    even_after_removal: bool = False
 
     def kept(self, requirement: str = "") -> Kept:
         """The requirement's condition really arose, and it was kept; without ``requirement`` the first one's."""
@@ -122,7 +125,12 @@ PROPERTIES: dict[str, Property] = {}
 
 
 def property_at(
-    moment: Moment, *stands_for: str, at: tuple[str, ...] = (), timed: bool = False, feature: Feature = ""
+    moment: Moment,
+    *stands_for: str,
+    at: tuple[str, ...] = (),
+    timed: bool = False,
+    feature: Feature = "",
+    even_after_removal: bool = False,
 ) -> Callable[[Evaluate], Evaluate]:
     """Register the decorated function, under its own name, as a property that is checked at ``moment``."""
 
@@ -130,7 +138,7 @@ def property_at(
         name = evaluate.__name__
         assert name not in PROPERTIES, f"two properties are called {name}"
         needs = feature or ("interactions" if moment in get_args(_WithInteractions) else "")
-        PROPERTIES[name] = Property(name, moment, stands_for, at, evaluate, timed, needs)
+        PROPERTIES[name] = Property(name, moment, stands_for, at, evaluate, timed, needs, even_after_removal)
         return evaluate
 
     return register

@@ -225,6 +225,8 @@ def _is_claimed(runtime: ObservedRuntime, step: s.Step) -> bool:
         return "hook" in (runtime.ics.reading(option) for option in _HOOKS.values())
     if isinstance(step, s.ReadLog):
         return runtime.ics.reading("trace-sink") == "hook"
+    if isinstance(step, s.Advance):
+        return runtime.ics.reading("virtual-time") == "hook"
     return isinstance(step, s.ConnectorCall)
 
 
@@ -236,5 +238,7 @@ def _what(step: s.Step) -> str:
             return f"{_HOOKS[step.where]} = hook"
         case s.ReadLog():
             return "trace-sink = hook"
+        case s.Advance():
+            return "virtual-time = hook"
         case _:
             return s.operation(step)

@@ -38,7 +38,10 @@ class PropertyTable:
     """The properties that apply to scenarios with these ``features``.
 
     ``at``: by moment.
-    ``ended``, ``unsettled``: by operation; ``entered``, ``unclear``: by hook; ``called``: by caller.
+    ``ended``, ``unsettled``: by operation.
+    ``ended_after_removal``: those of ``ended`` that are checked for removed containers.
+    ``entered``, ``unclear``: by hook.
+    ``called``: by caller.
     """
 
     def __init__(self, features: frozenset[Feature]) -> None:
@@ -46,6 +49,10 @@ class PropertyTable:
         callers: tuple[Caller, ...] = get_args(Caller)
         self.at: dict[Moment, tuple[Bound, ...]] = {m: checked_at(m, features) for m in get_args(Moment)}
         self.ended = {op: checked_at("ended", features, op) for op in DECLARED_ERRORS}
+        self.ended_after_removal = {
+            op: tuple((evaluate, one) for evaluate, one in bound if one.even_after_removal)
+            for op, bound in self.ended.items()
+        }
         self.unsettled = {op: checked_at("unsettled", features, op) for op in DECLARED_ERRORS}
         self.entered = {hook: checked_at("entered", features, hook) for hook in hooks}
         self.unclear = {hook: checked_at("unclear", features, hook) for hook in hooks}

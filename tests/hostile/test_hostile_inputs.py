@@ -193,6 +193,18 @@ def test_folder_that_is_gone_gets_one_line(here: Path) -> None:
     assert "Traceback" not in err
 
 
+def test_too_few_open_files_get_one_line(here: Path) -> None:
+    status, out, err = started(f"ulimit -n 16; $RUN --out {here}/out")
+    remedy = "64 are needed: ulimit -n 64, or what your system has for that"
+    assert (status, out, err) == (2, "", f"ucm-cts: at most 16 files may be open at once; {remedy}\n")
+
+
+def test_usual_limit_of_open_files_is_raised(here: Path) -> None:
+    status, _, err = started("ulimit -S -n 16; $RUN --out out")
+    assert (status, err) == (0, "")
+    assert report_of(here / "out")["verdict"] == "conformant"
+
+
 @pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
 def test_closed_streams_lose_nothing(here: Path, closed: str) -> None:
     status, _, err = started(f"$RUN --out out {closed}")

@@ -23,9 +23,9 @@ def of(expected: ExpectedCpp, requirement: str) -> list[Claim]:
     return [e.claim for e in expected.expected if e.requirement == requirement]
 
 
-def contract(text: str) -> ExpectedCpp:
+def contract(text: str, standard: Standard = "cpp11", **readings: str) -> ExpectedCpp:
     reading = read_model(f'<ContractModule name="m">{text}</ContractModule>'.encode(), "m.xml")
-    return expected_cpp(reading.model, "cpp11", {})
+    return expected_cpp(reading.model, standard, {name.replace("_", "-"): value for name, value in readings.items()})
 
 
 def test_each_rule_stands_for_the_requirements_of_the_catalogue() -> None:
@@ -60,6 +60,43 @@ def test_expectations_name_element_and_line() -> None:
 )
 def test_readings_decide(option: str, value: str, requirement: str, seen: Claim) -> None:
     assert seen in of(expected_cpp(model("data_types"), "cpp11", {option: value}), requirement)
+
+
+SIGNED = (
+    '<Enumeration name="e" indexType="SHORT"><Enumerator name="below" value="-1"/><Enumerator name="above" value="1"/>'
+    "</Enumeration>"
+)
+
+
+@pytest.mark.parametrize(
+    ("value", "stored"),
+    [
+        ("index-type", {"int16_t"}),
+        ("uint32_t", {"uint32_t", "int32_t", "int16_t"}),
+        ("observed", {"uint32_t", "int32_t", "int16_t"}),
+    ],
+)
+def test_values_below_zero_need_no_type_without_sign(value: str, stored: set[str]) -> None:
+    (seen,) = of(contract(SIGNED, "cpp11", cpp_enum_type=value), "R-13.2.3-04")
+    assert isinstance(seen, claims.Underlying)
+    assert set(seen.types) == stored
+    ordered = of(contract(SIGNED, "cpp03", cpp_enum_type=value), "R-13.10.2-10")
+    assert bool(ordered) == (value != "uint32_t")
+
+
+def test_policies_of_one_definition_share_getters_that_are_named_after_it() -> None:
+    def of_kitchen_scale(expected: ExpectedCpp) -> tuple[list[str], claims.Startup]:
+        (abstract,) = (one for one in expected.abstract if one.owner.endswith("Kitchen_Scale"))
+        startups = [c for c in of(expected, "R-13.7-12") if isinstance(c, claims.Startup)]
+        (startup,) = (c for c in startups if c.owner == abstract.owner)
+        return [getter.name for getter in abstract.getters if "get_tp_" in getter.name], startup
+
+    apart, all_connections = of_kitchen_scale(expectations("multiples", cpp_policy_connections="on_startup"))
+    named_after_it = expectations("multiples", cpp_policy_connections="on_startup", cpp_get_tp_name="definition")
+    shared, fewer_connections = of_kitchen_scale(named_after_it)
+    assert len(apart) == 4
+    assert shared == ["get_tp_started_starting", "get_tp_finished_finishing", "get_tp_finished_restarting"]
+    assert all_connections.least == all_connections.most == fewer_connections.most == fewer_connections.least + 1
 
 
 def test_other_readings_decide_names() -> None:

@@ -77,6 +77,7 @@ MODULES = {
         "early",
         "extras",
         "failures",
+        "instances",
         "later_containers",
         "later_use",
         "moments",

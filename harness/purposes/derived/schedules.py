@@ -31,6 +31,11 @@ _INTERFACE_OF = {_SERVICE_PORT: "service", _MESSAGE_PORT: "message"}
 _CONNECTOR_OF: dict[str, Connector] = {_SERVICE_PORT: SERVICE, _MESSAGE_PORT: MESSAGE}
 
 
+_RAISED, _RESTARTED = "after a call that raised", "after a restart"
+_SECOND, _BELOW, _SUCCESSOR = "as a second instance", "in a sub-container", "as a successor"
+_SITUATIONS = (_RAISED, _RESTARTED, _SECOND, _BELOW, _SUCCESSOR)
+
+
 @dataclass(frozen=True)
 class _Way:
     """A way into the server: its port element, called by the test or by a component, perhaps of another container; that of
@@ -101,7 +106,7 @@ def overlap_purposes() -> list[TestPurpose]:
         text = f"Clients of a service connector call a component that is {kind.name} while one is held inside."
         concerned = tuple(dict.fromkeys((*kind.same, *kind.different, *_served(kind))))
         purposes.append(TestPurpose(f"{kind.name}/services", _CLAUSE, text, concerned, scenarios))
-    purposes += [_active_as_a_whole(), *_receivers(), *_after_something()]
+    purposes += [_active_as_a_whole(), *_receivers(), *_in_situations()]
     entered = (*_WAYS, *_SERVICE_WAYS, _MESSAGE_WAY)
     runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in entered)
     text = "Callers of a self-executing component are sent while its run is held inside."
@@ -130,16 +135,13 @@ def _receivers() -> list[TestPurpose]:
     return purposes
 
 
-def _after_something() -> list[TestPurpose]:
-    """Protected components are still protected after a call that raised, and after a restart."""
+def _in_situations() -> list[TestPurpose]:
+    """Protected components are protected whatever went before, whichever instance of their implementation they are, and everywhere."""
     purposes = []
     ways = _WAYS[: len(_PORTS)]
     for kind in (_KINDS[0], _KINDS[3], _SELF_EXECUTING):
-        scenarios = (
-            (f"{kind.name}/after a call that raised", _meeting(kind, ways, raised=True)),
-            (f"{kind.name}/after a restart", _meeting(kind, ways, restarted=True)),
-        )
-        text = f"A component that is {kind.name} is called by two, after a call of it has raised, and after a restart."
+        scenarios = tuple((f"{kind.name}/{what}", _meeting(kind, ways, what)) for what in _SITUATIONS)
+        text = f"A component that is {kind.name} is called by two, {', '.join(_SITUATIONS)}."
         purposes.append(TestPurpose(f"{kind.name}/afterwards", _CLAUSE, text, kind.different, scenarios))
     return purposes
 
@@ -180,8 +182,9 @@ def _meetings(kind: _Kind, several: Iterable[tuple[_Way, ...]]) -> tuple[tuple[s
     return tuple((f"{kind.name}/{', '.join(way.name for way in ways)}", _meeting(kind, ways)) for ways in several)
 
 
-def _meeting(kind: _Kind, ways: tuple[_Way, ...], raised: bool = False, restarted: bool = False) -> Scenario:
-    """All are sent to the server, which may have ``raised`` or been ``restarted`` before."""
+def _meeting(kind: _Kind, ways: tuple[_Way, ...], situation: str = "") -> Scenario:
+    """All are sent to the server, which is in one of ``_SITUATIONS``."""
+    raised = situation == _RAISED
     hold = (s.HoldAtGate("inside"),)
     method: tuple[s.Action, ...] = (s.RaiseError(),) if raised else (*hold, s.Answer(s.PUSH, ("ok",)))
     if not raised and _MESSAGE_WAY not in ways:
@@ -189,7 +192,7 @@ def _meeting(kind: _Kind, ways: tuple[_Way, ...], raised: bool = False, restarte
     all_ways = (*ways, _SERVICE_WAYS[0]) if raised else ways
     server = _server(all_ways, {"exchange": hold, "method": method}, kind.policies)
     callers = [f"caller {number}" for number in range(len(ways))]
-    calls: list[Step] = [s.Stop(), s.Start()] if restarted else []
+    calls: list[Step] = [s.Stop(), s.Start()] if situation == _RESTARTED else []
     calls += [s.Invoke(f"way {len(ways)}", 21)] if raised else []
     for number, caller in enumerate(callers):
         calls.append(s.Invoke(f"way {number}", number + 1, thread=caller))
@@ -199,7 +202,7 @@ def _meeting(kind: _Kind, ways: tuple[_Way, ...], raised: bool = False, restarte
     calls += [s.OpenGate("inside"), *map(s.Join, callers)]
     if _MESSAGE_WAY in ways:
         calls.append(s.ReachGate("inside", total=len(ways)))
-    return _scenario(server, all_ways, calls)
+    return _scenario(server, all_ways, calls, situation)
 
 
 def _meeting_with_run(way: _Way) -> Scenario:
@@ -225,19 +228,24 @@ def _server(
     return Declaration((*_PORTS, *ports), plan=plan, policies=policies, ports=ports)
 
 
-def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) -> Scenario:
+def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step], situation: str = "") -> Scenario:
     """The server is set up with one client for each way that wants one, called, and stopped."""
     components = {"server": server}
-    steps: list[Step] = [s.AddComponent("server")]
+    place = "below" if situation == _BELOW else s.MANAGER
+    other = "other server"
+    steps: list[Step] = [s.CreateContainer(place)] if situation == _BELOW else []
+    steps += [s.AddComponent("server", bind=other)] if situation in (_SECOND, _SUCCESSOR) else []
+    steps += [s.Start(), s.Stop(), s.RemoveComponent(other)] if situation == _SUCCESSOR else []
+    steps.append(s.AddComponent("server", place))
     elsewhere = any(way.client == "component elsewhere" for way in ways)
     if elsewhere:
         steps.append(s.CreateContainer("elsewhere"))
     for port, interface in server.ports.items():
         steps.append(s.Link(_CONNECTOR_OF[port], interface, f"line of {port}"))
-        steps.append(provided_end(_CONNECTOR_OF[port], f"line of {port}", "server", port))
+        steps.append(provided_end(_CONNECTOR_OF[port], f"line of {port}", "server", port, place))
     for number, way in enumerate(ways):
         if not way.client:
-            steps.append(s.GetPortElement("server", way.port, f"way {number}"))
+            steps.append(s.GetPortElement("server", way.port, f"way {number}", place))
             continue
         client, container = f"client {number}", "elsewhere" if way.client == "component elsewhere" else s.MANAGER
         components[client] = _client(way, number)
@@ -245,12 +253,12 @@ def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) ->
             steps.append(s.AddComponent(client, container))
             steps.append(required_end(_CONNECTOR_OF[way.port], f"line of {way.port}", client, container=container))
         else:
-            steps.append(s.GetPortElement("server", way.port, f"goal {number}"))
+            steps.append(s.GetPortElement("server", way.port, f"goal {number}", place))
             steps.append(s.AddComponent(client, container))
             steps.append(s.Connect(client, "out.api", f"goal {number}", f"link {number}", container))
         steps.append(s.GetPortElement(client, "in.api", f"way {number}", container))
-    steps += [s.Start(), *([s.Start("elsewhere")] if elsewhere else []), *calls]
-    steps += [*([s.Stop("elsewhere")] if elsewhere else []), s.Stop(), s.GetComponents()]
+    others = [*(["elsewhere"] if elsewhere else []), *([place] if place != s.MANAGER else [])]
+    steps += [s.Start(), *map(s.Start, others), *calls, *map(s.Stop, others), s.Stop(), s.GetComponents()]
     return Scenario(components, tuple(steps), interfaces={name: _INTERFACES[name] for name in server.ports.values()})
 
 

@@ -43,7 +43,7 @@ _CONNECTED: tuple[Step, ...] = (
     s.Invoke("to client", 1),
     s.Stop(),
 )
-_SET_UP = (*_ADDED, *_CONNECTED)
+_SET_UP = (*_ADDED, s.Start(), s.Stop(), *_CONNECTED)
 _SET_UP_ACROSS: tuple[Step, ...] = (
     s.CreateContainer(_BOX),
     s.AddComponent("server", _BOX),

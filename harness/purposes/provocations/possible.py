@@ -67,6 +67,7 @@ class _Application:
                 self.ends.pop(step.connection, None)
             case s.RemoveComponent():
                 self.homes.pop(step.id, None)
+                self.ends = {name: ends for name, ends in self.ends.items() if step.id not in ends}
             case s.RemoveContainer():
                 gone = {name for name, home in self.homes.items() if home == step.container}
                 self.homes = {name: home for name, home in self.homes.items() if name not in gone}

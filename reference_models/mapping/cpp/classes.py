@@ -96,6 +96,7 @@ class Abstract(Value, frozen=True):
     ``life_cycle``: whether it has the life cycle of a component.
     ``startup``: the connections that a component is started with.
     ``more``: types of connections that policies may add.
+    ``alike``: how many of ``more`` have the name of another one, and may be one with it.
     ``inherited``: the number of inherited ``methods``.
     ``owner``: the class of a component, empty for interfaces.
     """
@@ -106,5 +107,6 @@ class Abstract(Value, frozen=True):
     life_cycle: bool = False
     startup: tuple[Connection, ...] = ()
     more: tuple[str, ...] = ()
+    alike: int = 0
     inherited: int = 0
     owner: str = ""

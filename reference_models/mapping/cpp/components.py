@@ -168,7 +168,9 @@ class Components:
             assert isinstance(ancestor.element, components.ComponentType)
             methods += self._interfaces.members.of_attributes(ancestor.element.attributes, ancestor, ())
         provided = [classes.Getter(f"get_{u.name}", u.key) for u in ports if u.element.kind == "PROVIDED"]
-        getters = [classes.Getter(f"get_tp_{u.name}", u.key) for u in self._policy_getters(policies)]
+        getters = dict.fromkeys(classes.Getter(f"get_tp_{u.name}", u.key) for u in self._policy_getters(policies))
+        if len({getter.name for getter in getters}) < len(getters):  # policies of one definition, with other bindings
+            raise Unsayable(declared.element.name)
         offered = [u for u in policies if u not in self._policy_getters(policies)]
         abstract = classes.Abstract(
             f"component_{len(self.abstract)}",
@@ -177,6 +179,7 @@ class Components:
             True,
             tuple(classes.Connection(f"{u.name}_Connection", u.key) for u in ports if u.element.kind == "REQUIRED"),
             () if self._context.reading("cpp-policy-connections") == "none" else tuple(u.key for u in offered),
+            alike=len(offered) - len({u.name for u in offered}),
             owner=self.class_of(declared),
         )
         self.abstract.append(abstract)
@@ -196,7 +199,7 @@ class Components:
     def _startup_of(self, abstract: classes.Abstract) -> claims.Startup:
         count, more = len(abstract.startup), len(abstract.more)
         must = self._context.reading("cpp-policy-connections") == "on_startup"
-        least = count + more if must else count
+        least = count + more - abstract.alike if must else count
         return claims.Startup(abstract.owner, least, count + more, tuple(c.name for c in abstract.startup))
 
     def _port(self, declared: Declared, owner: str, abstract: classes.Abstract, use: Use) -> Iterator[Expected]:

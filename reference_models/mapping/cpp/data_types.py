@@ -235,6 +235,8 @@ def _enumeration(declared: Declared, enumeration: contracts.Enumeration, context
             owner if context.modern else f"{owner}::type", tuple(plain(e.name) for e in sayable)
         )
         yield expect(member if context.modern else value, declared, whole)
+    if context.reading("cpp-enum-type") == "uint32_t":  # other values have no order that it keeps
+        sayable = [e for e in sayable if _has_uint32_t(e)]
     if not context.modern and len(sayable) > 1:
         yield from _safe_enum(declared, tuple(f"{name}::{plain(e.name)}" for e in sayable[:2]), sayable)
 
@@ -261,12 +263,20 @@ def _underlying(declared: Declared, enumeration: contracts.Enumeration, context:
     if kind not in INTEGERS:
         return ()
     of_index = byte_types(context) if kind == "BYTE" else (INTEGERS[kind][1],)
+    of_32_bits = (
+        ("uint32_t",) if all(map(_has_uint32_t, enumeration.enumerators)) else ("uint32_t", "int32_t", *of_index)
+    )
     match context.reading("cpp-enum-type"):
         case "index-type":
             return of_index
         case "uint32_t":
-            return ("uint32_t",)
-    return tuple(dict.fromkeys((*of_index, "uint32_t")))
+            return tuple(dict.fromkeys(of_32_bits))
+    return tuple(dict.fromkeys((*of_index, *of_32_bits)))
+
+
+def _has_uint32_t(enumerator: contracts.Enumerator) -> bool:
+    """Whether the enumerator's value is one of ``uint32_t``."""
+    return enumerator.value is None or 0 <= enumerator.value < 2**32
 
 
 def _array(declared: Declared, array: contracts.Array, context: Context) -> Iterator[Expected]:

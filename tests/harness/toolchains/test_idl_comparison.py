@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mapping_subjects import TELLER, TELLER_IDL, model_of
 
+from ucm_cts.adapters.contract.metamodel.reading import read_model
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.results.values import Processed
+from ucm_cts.harness.selftest.toolchains import declaring
+from ucm_cts.harness.toolchains.commands.processing import Response
 from ucm_cts.harness.toolchains.differences import Difference
+from ucm_cts.harness.toolchains.examinations import examination_for
+from ucm_cts.harness.toolchains.generation import mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS, compare
+from ucm_cts.harness.toolchains.idl.language.problems import Problem
 from ucm_cts.harness.toolchains.idl.language.scopes import Scope
 from ucm_cts.harness.toolchains.idl.language.values import worth as value_of
+from ucm_cts.harness.toolchains.idl.omniidl import Opinion, opinion
 from ucm_cts.harness.toolchains.idl.standard import printed
+from ucm_cts.harness.toolchains.renaming import Renaming
 from ucm_cts.reference_models.mapping.idl.declarations import Literal
 from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF, STANDS_FOR, Declares, Getter, Templated
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
@@ -104,6 +116,58 @@ def test_an_edit_is_reported_with_requirement_element_and_places(
 )
 def test_declared_readings_are_binding(reading: str, failed: bool) -> None:
     assert bool(differences(TELLER_IDL, reading)) == failed
+
+
+@pytest.mark.parametrize(
+    ("type_", "reading", "failed"),
+    [
+        ("unsigned long", "observed", set()),
+        ("unsigned long", "unsigned-long", set()),
+        ("unsigned long", "unsigned-long-long", {"R-12.3.1-08"}),
+        ("unsigned long long", "unsigned-long-long", set()),
+        ("unsigned long long", "unsigned-long", {"R-12.3.1-08"}),
+    ],
+)
+def test_constants_may_be_too_large_for_the_type_that_the_table_prints(
+    type_: str, reading: str, failed: set[str]
+) -> None:
+    model = read_model(mapping_models()["large_constants"].encode(), "m.xml").model
+    files = {n: re.sub("unsigned long long", type_, text) for n, text in reference().generators["idl"](model).items()}
+    comparison = compare(expected_idl(model), files, {"idl-ulonglong": reading}, opinion)
+    assert {one.requirement for one in comparison.differences} == failed
+
+
+def test_omniidl_is_believed_of_other_literals() -> None:
+    model = read_model(mapping_models()["large_constants"].encode(), "m.xml").model
+    files = reference().generators["idl"](model)
+    complaint = Opinion("refused", (Problem("model.idl", 1, 1, "Value too large for unsigned short"),))
+    assert {d.requirement for d in compare(expected_idl(model), files, {}, lambda _: complaint).differences} == {
+        "R-12.1-03"
+    }
+    too_large = Opinion("refused", (Problem("model.idl", 1, 1, "Integer literal is too large for unsigned long"),))
+    assert compare(expected_idl(model), files, {}, lambda _: too_large).differences, (
+        "no unsigned long stands for ULONGLONG"
+    )
+
+
+@pytest.mark.parametrize(
+    ("profile", "name", "reading"),
+    [
+        ("idl", "large_constants", "idl-ulonglong=unsigned-long"),
+        ("idl", "multiples", "idl-policy-getters=definition"),
+        ("cpp11", "multiples", "cpp-get-tp-name=definition"),
+    ],
+)
+def test_who_declares_a_reading_may_refuse_what_it_makes_impossible(profile: str, name: str, reading: str) -> None:
+    def broken(*readings: str, model: str = name) -> bool:
+        examination = examination_for(profile, declaring(readings), Renaming(), models=(model,))
+        processed = Processed(model, profile, "", (), 1, "m.xml:1: error: impossible")
+        refused = Response(processed, accepted=False)
+        return any(fact.finding is not None for fact in examination.examine(model, refused))
+
+    assert not broken(reading)
+    assert broken()
+    assert broken(reading, model="interfaces")
 
 
 def test_a_missing_element_is_reported_once() -> None:

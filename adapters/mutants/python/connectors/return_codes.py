@@ -13,6 +13,7 @@ from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, INTERNAL_ERROR, OK, Link, LinkElement, Taker
+from ucm_cts.adapters.reference.python.members import Member
 
 _CODES = ("10.1.2",)
 _MESSAGES = ("10.1.6",)
@@ -241,6 +242,71 @@ class repeats_the_last_result(Link):
         if not self.broken:
             self.last = super()._request(method, arguments)
         return self.last
+
+
+@replaces("_request", "R-10.1.5.1-01", clauses=_CODES)
+def returns_from_what_has_no_results(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+    """A client whose connection is broken calls a method without results, which returns."""
+    return [] if self.broken and not self.interface.methods[method].results else Link._request(self, method, arguments)
+
+
+@breaks("R-10.1.5.1-01", clauses=_CODES)
+class serves_no_more_after_a_fault(Link):
+    """Once a connection has been broken its calls fail, also when it has been mended."""
+
+    failed = False
+
+    def break_link(self, where: str) -> None:
+        super().break_link(where)
+        self.failed = True
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.failed:
+            raise UcmError("the connection was broken")
+        return super()._request(method, arguments)
+
+
+@breaks("R-10.1.5.1-01", clauses=_CODES)
+class mends_what_broke_first(Link):
+    """What breaks one connection breaks all of its kind, and mending mends that one only."""
+
+    def break_link(self, where: str) -> None:
+        for link in self.manager.links:
+            link.broken = where if link.connector == self.connector else link.broken
+
+
+@breaks("R-10.1.2-01", "R-10.1.2-11", clauses=_CODES, also=("R-10.1.2-12",))
+class notices_one_fault_only(_Answering):
+    """Push returns ok when the connection is broken for the second time."""
+
+    faults = 0
+
+    def break_link(self, where: str) -> None:
+        super().break_link(where)
+        self.faults += 1
+
+    def broken_answer(self, where: str, code: str) -> str:
+        return OK if self.faults > 1 else code
+
+
+@breaks("R-10.1.2-01", "R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
+class notices_faults_in_one_phase(Base):
+    """Push returns ok while the connection is broken if a receiver has been stopped meanwhile."""
+
+    class link_class(_Answering):
+        stopped = False
+
+        def mend_link(self) -> None:
+            super().mend_link()
+            self.stopped = False
+
+        def broken_answer(self, where: str, code: str) -> str:
+            return OK if self.stopped else code
+
+    def _close_entrances(self, member: Member) -> None:
+        super()._close_entrances(member)
+        for link, _ in self._takers_of(member):
+            link.__dict__["stopped"] = bool(link.broken)
 
 
 @breaks("R-10.1.2-01", clauses=_CODES, readings={"service-failure": "wait"})

@@ -93,6 +93,13 @@ def mistakes_exceptions(self: _Catches, method: str, error: DeclaredException) -
 
 
 @replaces("caught", _EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
+def knows_one_exception(self: _Catches, method: str, error: DeclaredException) -> Sequence[Datum]:
+    """Every exception arrives as the first one that the method declares."""
+    first = self.interface.methods[method].raises[0]
+    raise DeclaredException(first.name if len(first.fields) == len(error.fields) else error.name, error.fields)
+
+
+@replaces("caught", _EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
 def raises_its_own_exceptions(_self: _Catches, _method: str, error: DeclaredException) -> Sequence[Datum]:
     """The vendor declares that exceptions arrive unchanged; they arrive as errors of the framework."""
     raise UcmError(error.name)

@@ -121,6 +121,12 @@ def virtual_time_passes_twice(self: Base, milliseconds: int) -> None:
     Base.advance(self, 2 * milliseconds)
 
 
+@alters("_local_time", "R-10.1.4.1-09", clauses=HERE, readings={"virtual-time": "hook"})
+def virtual_time_stays_above(self: Base, given: int, _member: Member) -> int:
+    """Virtual time does not pass for the local clocks of sub-containers."""
+    return given - self.manager.advanced if is_below(self) else given
+
+
 class _Paced(Base):
     pace = 1.0
 

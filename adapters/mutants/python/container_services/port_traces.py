@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.scenario import METHODS_TO_TRACE, PORT_TRACE, Pol
 from ucm_cts.adapters.mutants.python.container_services.clocks import HERE
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.mutants.python.variants.declared import knows_no_parameters_of_port_traces
 from ucm_cts.adapters.reference.python.connectors import Link
 from ucm_cts.adapters.reference.python.container_services import Record
 from ucm_cts.adapters.reference.python.members import Member
@@ -22,6 +23,14 @@ T = TypeVar("T")
 def traces_no_ports(_self: Base, *_: object) -> list[Policy]:
     """port_trace is accepted and forgotten."""
     return []
+
+
+@breaks("R-10.1.4.2-04", clauses=HERE, readings={"port-trace-parameters": "none"})
+class forgets_traces_without_parameters(knows_no_parameters_of_port_traces):
+    """port_trace, which has no parameters, is accepted and forgotten."""
+
+    def _is_traced(self, policy: Policy, method: str) -> bool:
+        return False
 
 
 @alters("_port_traces", "R-10.1.4.2-04", clauses=HERE, also=("R-10.1.4.2-32",))  # only one of both ends is traced

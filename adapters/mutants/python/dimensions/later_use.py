@@ -13,11 +13,11 @@ from ucm_cts.adapters.mutants.python.registry import (
     Base,
     GivesOutProxies,
     HandsOverProxies,
-    PeerProxy,
     Proxy,
     breaks,
     is_below,
 )
+from ucm_cts.adapters.mutants.python.variants.readings import LeadsNowhere, cascades
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member
 
@@ -245,17 +245,10 @@ class reconnects_to_the_predecessor(Base):
 # proxies of what is gone
 
 
-class _OfNothing(PeerProxy):
-    """Leads to what was removed, or was undone: calls are refused."""
-
-    def exchange(self, value: int) -> int:
-        raise UcmError("there is nothing behind it")
-
-
 class _HandsOverProxies(HandsOverProxies):
     def _dependencies_of(self, member: Member) -> list[PortConnection]:
         given = super()._dependencies_of(member)
-        given += [PortConnection(port, (_OfNothing(target, member),)) for port, target in self._lost(member).items()]
+        given += [PortConnection(port, (LeadsNowhere(),)) for port in self._lost(member)]
         return given
 
     def _check_startable(self) -> None:
@@ -279,6 +272,38 @@ class proxies_outlive_the_container_behind_them(_HandsOverProxies):
         super()._disconnect(connection, failures)
         if is_below(self) and connection.client.container is not self:
             connection.client.__dict__.setdefault("lost", {})[connection.port] = connection.target
+
+
+_CASCADES = {"remove-while-ready": "cascade", "remove-provider-in-use": "cascade"}
+
+
+class _OutlivesProviders(_HandsOverProxies, cascades):
+    def remove_component(self, comp_instance: int) -> None:
+        member = self.members.get(comp_instance)
+        found = self._connections_to(member) if member is not None else []
+        super().remove_component(comp_instance)
+        for connection in found:
+            if self._outlives(connection):
+                connection.client.__dict__.setdefault("lost", {})[connection.port] = connection.target
+
+    def _outlives(self, connection: Connection) -> bool:
+        raise NotImplementedError
+
+
+@breaks("R-11.2.3-14", readings=_CASCADES)
+class proxies_outlive_the_provider(_OutlivesProviders):
+    """Components are given proxies; one that leads to a component of their own container is handed over after its removal, too."""
+
+    def _outlives(self, connection: Connection) -> bool:
+        return connection.client.container is self
+
+
+@breaks("R-11.2.3-14", readings=_CASCADES)
+class proxies_outlive_the_provider_across(_OutlivesProviders):
+    """Components are given proxies; one that leads to a component of another container is handed over after its removal, too."""
+
+    def _outlives(self, connection: Connection) -> bool:
+        return connection.client.container is not self
 
 
 @breaks("R-11.2.2.1-10")

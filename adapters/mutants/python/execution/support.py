@@ -31,6 +31,13 @@ def takes_any_number_of_policies(_self: Base, *_: object) -> None:
     """A component with several execution policies is accepted; the first one counts."""
 
 
+@replaces("_check_policies", "R-10.1.3-03", clauses=POLICIES)
+def takes_a_policy_twice(self: Base, implementation: Implementation) -> None:
+    """Of two equal execution policies of a component one counts."""
+    once = list({(policy.definition, policy.port): policy for policy in implementation.policies}.values())
+    Base._check_policies(self, replace(implementation, policies=once))
+
+
 class _Refuses(Base):
     definition: str
 

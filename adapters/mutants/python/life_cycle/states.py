@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
-from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.mutants.python.registry import Base, HandsOverProxies, breaks
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
@@ -181,6 +181,11 @@ class hands_out_removed_providers(Base):
 
     def _remove(self, member: Member, failures: Failures) -> None:
         super()._remove(member, failures)
+
+
+@breaks("R-11.2.3-14")
+class hands_out_proxies_of_removed_providers(HandsOverProxies, hands_out_removed_providers):
+    """The client of a removed provider is given a proxy of it, which does not show that."""
 
 
 @replaces("start", "R-11.2.3-15")

@@ -141,7 +141,7 @@ class _SharedThread(Holding):
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
         shared: Taker = self.manager.__dict__.setdefault("deliverer", Taker(taker.member, taker.port))
-        shared.messages.put([taker, method, arguments])
+        shared.messages.put([taker, taker.__dict__.get("phases", 0), method, arguments])
         if shared.thread is None:
             shared.thread = threading.Thread(target=self._deliver, args=(shared, ""), daemon=True)
             shared.thread.start()
@@ -149,9 +149,14 @@ class _SharedThread(Holding):
     def _deliver(self, taker: Taker, method: str) -> None:
         while (posted := taker.messages.get()) is not None:
             assert isinstance(posted, list)
-            receiver, of, arguments = posted
+            receiver, phase, of, arguments = posted
             with suppress(Exception):
-                receiver.enter(of, arguments)
+                receiver.entrance.visit(lambda r=receiver, p=phase, m=of, a=arguments: _enter_in_phase(r, p, m, a))
+
+
+def _enter_in_phase(taker: Taker, phase: int, method: str, arguments: list[Datum]) -> Sequence[Datum]:
+    """Call the body, unless its component has been stopped since that phase."""
+    return taker.enter(method, arguments) if taker.__dict__.get("phases", 0) == phase else ()
 
 
 @variant_of(*_CLAUSES, readings={"receiver-not-ready": "hold", "message-order": "fifo", "pending-at-stop": "drop"})
@@ -159,6 +164,11 @@ class delivers_all_on_one_thread(ReleasesHeld):
     """Receivers wait for each other, and messages for receivers that are not operational for their start."""
 
     link_class = _SharedThread
+
+    def _close_entrances(self, member: Member) -> None:
+        super()._close_entrances(member)
+        for _, taker in self._takers_of(member):
+            taker.__dict__["phases"] = taker.__dict__.get("phases", 0) + 1
 
     def _remove_members(self, failures: Failures) -> None:
         super()._remove_members(failures)
@@ -261,6 +271,32 @@ class waits_for_room_and_keeps_at_stop(ReleasesHeld):
     """Push waits while there is no room. Messages that wait at stop arrive after the next start."""
 
     link_class = _Bounded
+
+
+@variant_of(*_CLAUSES)
+class shares_what_breaks(Link):
+    """What breaks one connection breaks all, and for 0.2 s after it was mended calls still fail."""
+
+    mended_at = 0.0
+
+    def break_link(self, where: str) -> None:
+        for link in self.manager.links:
+            link.broken = where
+
+    def mend_link(self) -> None:
+        for link in self.manager.links:
+            link.__dict__.update(broken="", mended_at=time.monotonic())
+
+    def _is_slow(self) -> bool:
+        return not self.broken and time.monotonic() - self.mended_at < 0.2
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self._is_slow():
+            raise UcmError("the connection is not up again")
+        return super()._request(method, arguments)
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        return COMM_ERROR if self._is_slow() else super()._emit(method, arguments)
 
 
 @variant_of(*_CLAUSES, readings={"transport-fault": "none", "connector-fault": "none"})

@@ -135,6 +135,55 @@ class starts_the_unconfigured_with_null(starts_the_unconfigured):
         return [given.get(p, pm.PortConnection(p, (None,))) for p in member.implementation.requires]
 
 
+class LeadsNowhere(pm.PortElementObject):
+    """Leads to what was removed, or undone, or was never there: calls are refused."""
+
+    def exchange(self, value: int) -> int:
+        raise pm.UcmError("there is nothing behind it")
+
+
+@variant_of(
+    *CONTAINER,
+    readings={
+        "remove-while-ready": "cascade",
+        "remove-provider-in-use": "dangling-tolerated",
+        "start-unconfigured": "tolerate",
+        "late-connect": "refuse",
+    },
+)
+class cuts_dangling_references_late(HandsOverProxies, lets_references_dangle):
+    """Components are given a proxy for each required port element, connected or not; the client of a removed provider gets on_disconnect
+    when the container of the provider is removed.
+    """
+
+    def _check_startable(self) -> None:
+        pass
+
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
+        given = {d.from_port: d for d in super()._dependencies_of(member)}
+        nothing: dict[str, pm.PortConnection] = {
+            port: pm.PortConnection(port, (LeadsNowhere(),))
+            for port in member.implementation.requires
+            if port not in given
+        }
+        return [*given.values(), *nothing.values()]
+
+    def remove_component(self, comp_instance: int) -> None:
+        member = self.members.get(comp_instance)
+        found = self._connections_to(member) if member is not None else []
+        super().remove_component(comp_instance)
+        left = self.__dict__.setdefault("dangling", [])
+        left += [c for c in found if c.client.container is not self and c.client.implementation.connectable]
+
+    def _remove_container(self, container: Container, failures: Failures) -> None:
+        for connection in container.__dict__.get("dangling", ()):
+            client = connection.client
+            is_there = client.id in client.container.members
+            if is_there and not client.container._is_connected(client, connection.port):
+                failures.attempt(client.body.on_disconnect, connection.port)
+        super()._remove_container(container, failures)  # type: ignore[misc]  # the manager's
+
+
 @variant_of(*CONTAINER, readings={"second-connect": "append or replace"})
 class appends_connections(Base):
     """A port element takes any number of connections."""

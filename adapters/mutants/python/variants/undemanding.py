@@ -84,3 +84,8 @@ class bears_no_operations_at_once(Base):
         self.manager.lock.release()
         with super()._operation():
             yield
+
+
+@replaces("_check_alive")
+def goes_on_when_removed(_self: Base) -> None:
+    """A container that was removed, and a runtime that was destroyed, are empty and can be used like new ones: the text leaves that open."""

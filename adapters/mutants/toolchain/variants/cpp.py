@@ -91,48 +91,12 @@ def _floating_constants_in_headers(files: Files) -> Files:
     return made
 
 
-_BOUNDED = """
-#include <stdexcept>
-namespace ucm {
-template <class T, ::std::size_t N>
-class bounded_vector {
-  public:
-    typedef T value_type;
-    bool operator==(const bounded_vector& other) const { return all_ == other.all_; }
-    ::std::size_t size() const { return all_.size(); }
-    void push_back(const T& value) {
-        if (all_.size() == N) {
-            throw ::std::length_error("bounded_vector");
-        }
-        all_.push_back(value);
-    }
-
-  private:
-    ::std::vector<T> all_;
-};
-}  // namespace ucm
-
-#endif
-"""
-
-
-def _bounded_vectors(files: Files) -> Files:
-    """Bounded sequences hold any number of elements up to their bound."""
-    made = {
-        n: re.sub(r"::(?:std|ucm)::array(< [^<>]* > lengths_t)", r"::ucm::bounded_vector\1", t)
-        for n, t in files.items()
-    }
-    return {**made, SUPPORT_FILE: made[SUPPORT_FILE].replace("\n#endif\n", _BOUNDED)}
-
-
 REWRITTEN: Mapping[str, tuple[Callable[[Files], Files], tuple[str, ...]]] = {
     "framework_namespace": (_framework, ()),
     "one_file": (_one_file, ()),
     "many_files": (_many_files, ()),
     "connections_derived": (_connections_derived, ()),
     "plain_members": (_plain_members, ("cpp-struct=plain",)),
-    "bounded_vectors": (_bounded_vectors, ()),
-    "bounded_vectors_as_declared": (_bounded_vectors, ("cpp-bounded-sequence=bounded-vector",)),
 }
 
 for _says, _freedom in table("variants/cpp.yaml", dict[str, Wrong]).items():

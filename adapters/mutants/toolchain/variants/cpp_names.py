@@ -27,7 +27,7 @@ Rewrite = Callable[[Model, Files], Files]
 """Makes other files of those that the reference tool chain makes of a model."""
 
 
-def _all(model: Model, kind: type[E]) -> Iterator[E]:
+def all_of(model: Model, kind: type[E]) -> Iterator[E]:
     """All elements of ``kind``."""
     found = (element for module in model.modules for element in walk(module))
     return (element for element in found if isinstance(element, kind))
@@ -52,21 +52,30 @@ def _last(path: str) -> str:
 
 def _classes_with_suffix(model: Model, files: Files) -> Files:
     """Classes of components have the suffix that the example of 13.7 has."""
-    names = "|".join({re.escape(identifier(one.name)) for one in _all(model, AtomicComponentImplementation)})
+    names = "|".join({re.escape(identifier(one.name)) for one in all_of(model, AtomicComponentImplementation)})
     return {n: re.sub(rf"\bAbstract_({names})\b", r"\1_Abstract", t) for n, t in files.items()} if names else files
+
+
+def one_of_each(text: str) -> str:
+    """``text``, a class, without getters of policies that are there already."""
+    lines: list[str] = []
+    for line in text.splitlines(keepends=True):
+        if "get_tp_" not in line or line not in lines:
+            lines.append(line)
+    return "".join(lines)
 
 
 def _getters_named(model: Model, files: Files, called: Callable[[ComponentTechnicalPolicy, str], str]) -> Files:
     """``called`` names the getters of a policy, in the class of a component with the type of that name."""
-    policies = {identifier(one.name): one for one in _all(model, ComponentTechnicalPolicy)}
-    types = {identifier(one.name): _last(one.type) for one in _all(model, AtomicComponentImplementation)}
+    policies = {identifier(one.name): one for one in all_of(model, ComponentTechnicalPolicy)}
+    types = {identifier(one.name): _last(one.type) for one in all_of(model, AtomicComponentImplementation)}
     longest_first = "|".join(sorted(map(re.escape, policies), key=len, reverse=True))
 
     def of_class(found: re.Match[str]) -> str:
         def getter(match: re.Match[str]) -> str:
             return f" get_tp_{identifier(called(policies[match[1]], types[found[1]]))}_"
 
-        return re.sub(rf" get_tp_({longest_first})_", getter, found[0])
+        return one_of_each(re.sub(rf" get_tp_({longest_first})_", getter, found[0]))
 
     shape = r"class Abstract_(\w+) \{\n(?:(?!\};\n).)*\};\n"
     return {n: re.sub(shape, of_class, t, flags=re.DOTALL) if policies else t for n, t in files.items()}
@@ -84,7 +93,7 @@ def _getters_named_as_in_the_example(model: Model, files: Files) -> Files:
 
 def _services_without_parameters(model: Model, files: Files) -> Files:
     """What a policy offers a component is no parameter of its on_startup."""
-    names = "|".join({re.escape(identifier(one.name)) for one in _all(model, ComponentTechnicalPolicy)})
+    names = "|".join({re.escape(identifier(one.name)) for one in all_of(model, ComponentTechnicalPolicy)})
 
     def startup(match: re.Match[str]) -> str:
         kept = (one for one in match[1].split(", ") if not re.match(rf"const (?:{names})_\w+_Connection& ", one))
@@ -95,8 +104,8 @@ def _services_without_parameters(model: Model, files: Files) -> Files:
 
 def _constant_accessors(model: Model, files: Files) -> Files:
     """All accessors of attributes are for constant objects, too."""
-    methods = {identifier(one.name) for one in _all(model, Method)}
-    names = {identifier(one.name) for one in _all(model, Attribute)} - methods
+    methods = {identifier(one.name) for one in all_of(model, Method)}
+    names = {identifier(one.name) for one in all_of(model, Attribute)} - methods
     shape = rf"(virtual [^;()]+ (?:{'|'.join(map(re.escape, names))})\(\)) = 0"
     return {n: re.sub(shape, r"\1 const = 0", t) for n, t in files.items()} if names else files
 
@@ -141,7 +150,8 @@ MODELS_READ: Mapping[str, tuple[Callable[[Element], Element], str]] = {
 """Tool chains that generate as the reference does, from what they take the model to say."""
 
 
-def _generating(program: Program, task: str, rewrite: Rewrite) -> Program:
+def generating(program: Program, task: str, rewrite: Rewrite) -> Program:
+    """``program`` whose files for ``task`` are rewritten."""
     generate = program.generators[task]
     return replace(program, generators={**program.generators, task: lambda model: rewrite(model, generate(model))})
 
@@ -151,14 +161,21 @@ def _reading(program: Program, task: str, change: Callable[[Element], Element]) 
     return replace(program, generators={**program.generators, task: lambda model: generate(_changed(model, change))})
 
 
-for _task in BOTH:
-    for _says, (_rewrite, _value) in REWRITTEN.items():
-        _derive = named(
-            lambda program, task=_task, rewrite=_rewrite: _generating(program, task, rewrite),  # type: ignore[misc]
-            f"{_says}_{_task}",
-            _rewrite.__doc__,
+def rewriting(says: str, rewrite: Rewrite, *declares: str) -> None:
+    """Make a variant of each C++ task: a tool chain whose files are rewritten, and that declares these readings."""
+    for task in BOTH:
+        derive = named(
+            lambda program, task=task: generating(program, task, rewrite),  # type: ignore[misc]
+            f"{says}_{task}",
+            rewrite.__doc__,
         )
-        variant(task=_task, declares=(_value,))(_derive)
+        variant(task=task, declares=declares)(derive)
+
+
+for _says, (_rewrite, _value) in REWRITTEN.items():
+    rewriting(_says, _rewrite, _value)
+
+for _task in BOTH:
     for _says, (_change, _value) in MODELS_READ.items():
         _derive = named(
             lambda program, task=_task, change=_change: _reading(program, task, change),  # type: ignore[misc]

@@ -9,12 +9,15 @@ from typing import TypeVar
 import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element, walk
+from ucm_cts.adapters.contract.metamodel.components import ComponentTechnicalPolicy
 from ucm_cts.adapters.contract.metamodel.contracts import Annotation
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.adapters.mutants.toolchain import rewriting as rw
 from ucm_cts.adapters.mutants.toolchain.checking import refusing_text
 from ucm_cts.adapters.mutants.toolchain.registry import named, variant
+from ucm_cts.adapters.mutants.toolchain.variants.cpp_names import one_of_each
+from ucm_cts.adapters.reference.toolchain.idl.names import identifier
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 
@@ -32,6 +35,25 @@ for _name, _freedom in rw.table("variants/idl.yaml", dict[str, Freedom]).items()
 
 _derive = rw.replaced(r'@DefaultValue\(val="(\d+)"\)', lambda m: f'@DefaultValue(val="0x{int(m[1]):X}")')
 variant(task="idl")(named(_derive, "values_in_hexadecimal"))
+
+
+@variant(task="idl", declares=("idl-policy-getters=definition",))
+def definitions_declared(program: Program) -> Program:
+    """Getters of policies are named after definitions; those of one definition are one getter."""
+    generate = program.generators["idl"]
+
+    def rewrite(model: Model) -> rw.Files:
+        files = generate(model)
+        policies = [
+            one for module in model.modules for one in walk(module) if isinstance(one, ComponentTechnicalPolicy)
+        ]
+        called = {identifier(one.name): one.technical_policy_definition.rpartition("::")[2] for one in policies}
+        names = "|".join(sorted(map(re.escape, called), key=len, reverse=True)) or "(?!)"
+        text = re.sub(rf"\bget_tp_({names})_", lambda m: f"get_tp_{identifier(called[m[1]])}_", files[rw.MODEL])
+        bodies = re.sub(r"interface \w+_Body[^{};]*\{[^}]*\}", lambda body: one_of_each(body[0]), text)
+        return {**files, rw.MODEL: bodies}
+
+    return replace(program, generators={**program.generators, "idl": rewrite})
 
 
 @variant(task="idl")

@@ -14,7 +14,7 @@ from ucm_cts.adapters.contract.metamodel.modules import MODULES, Module
 from ucm_cts.adapters.contract.metamodel.names import Declared
 from ucm_cts.adapters.mutants.toolchain import rewriting as rw
 from ucm_cts.adapters.mutants.toolchain.registry import variant
-from ucm_cts.adapters.reference.toolchain.idl.generator import files_of
+from ucm_cts.adapters.reference.toolchain.idl.generator import generate
 from ucm_cts.adapters.reference.toolchain.idl.names import ABSTRACT, TYPES, Templates
 from ucm_cts.adapters.reference.toolchain.program import Program
 
@@ -68,5 +68,5 @@ def _reached(declared: Declared) -> Iterator[Declared]:
 @variant(task="idl", declares=("idl-template-propagation=containment",))
 def templates_around_all_templates(program: Program) -> Program:
     """A module that holds a template, or uses an abstract type in any roundabout way, is a template, too."""
-    generators = {**program.generators, "idl": lambda model: files_of(model, _Containing)}
+    generators = {**program.generators, "idl": lambda model: generate(model, _Containing)}
     return replace(program, generators=generators)

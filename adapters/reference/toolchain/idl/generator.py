@@ -29,14 +29,14 @@ DECLARED = (DataType, Constant, Exception_, Interface, mc.ComponentType, mc.Atom
 HEAD = ["#ifndef MODEL_IDL", "#define MODEL_IDL", '#include "ucm.idl"', ""]
 
 
-def generate(model: Model) -> Mapping[str, str]:
-    """The files of ``model``, by their names. Raises ``CannotBeMapped``."""
+def generate(model: Model, templates: type[Templates] = Templates) -> Mapping[str, str]:
+    """The files of ``model``, by their names; ``templates`` says which modules become templates. Raises ``CannotBeMapped``."""
     refuse_clashes(model, lambda name: name.replace("-", "_").lower(), "12.2", "IDL", members=True)
-    return files_of(model)
+    return files_of(model, templates)
 
 
 def files_of(model: Model, templates: type[Templates] = Templates) -> Mapping[str, str]:
-    """The files of ``model``, by their names, in which names may clash; ``templates`` says which modules become templates."""
+    """The files of ``model``, by their names, in which names may clash; ``templates`` as for ``generate``."""
     writer = Writer(model, templates)
     lines = [*HEAD, *writer.written(), "", "#endif", ""]
     return {"ucm.idl": STANDARD, "model.idl": "\n".join(lines)}
