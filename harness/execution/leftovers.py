@@ -26,6 +26,9 @@ _WARMING_UP = 2
 _SERIES = (8, 8, 24)
 """Runtimes in a row. Each series must leave as many threads, or files, as runtimes; a pool is full before."""
 
+_STILL_ENDING = 4
+"""How many threads, or files, fewer the first series may leave: those of the last warm-up may be ending when it is counted."""
+
 _BETWEEN_COUNTS = 0.02
 
 
@@ -45,7 +48,7 @@ def examine(driver: Driver, name: str, scenario: Scenario, patience: float) -> t
         for _ in range(_WARMING_UP):
             answer, before = next(runs, (None, None))
         leaking = {"threads", "files"}
-        for series in _SERIES:
+        for series, spared in zip(_SERIES, (_STILL_ENDING, 0, 0), strict=True):
             for _ in range(series):
                 answer, after = next(runs, (None, None))
             if answer is None:
@@ -53,7 +56,7 @@ def examine(driver: Driver, name: str, scenario: Scenario, patience: float) -> t
             if before is None or after is None:
                 raise NotCounted
             until = time.monotonic() + patience
-            while (leaking_now := leaking & _grown(before, after, series)) and time.monotonic() < until:
+            while (leaking_now := leaking & _grown(before, after, series - spared)) and time.monotonic() < until:
                 time.sleep(_BETWEEN_COUNTS)
                 after = driver.usage or after
             leaking, before = leaking_now, after

@@ -103,7 +103,7 @@ def spilled(mutant: Mutant, failing: Mapping[str, str]) -> dict[str, str]:
 def check_killed(mutant: Mutant) -> None:
     """Examine ``mutant`` as the self-test does: in a host, under the statement, with each finding compared."""
     result = examine_mutant(all_mutants()[mutant.name], Thoroughness(quick=True))
-    assert result.is_killed, (result.survives, result.trouble)
+    assert result.is_killed, (result.survives, result.trouble, result.incidents)
     assert not result.spills
 
 

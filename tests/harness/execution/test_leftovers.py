@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from typing import cast
+
 import msgspec
 import pytest
 
-from ucm_cts.adapters.contract.scenario import Stop
-from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.adapters.contract.scenario import Scenario, Stop
+from ucm_cts.harness.execution.driver import Answer, Driver, Limits
 from ucm_cts.harness.execution.leftovers import FREED, NotCounted, examine
+from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.scripts import load_scripts, to_scenario
 
@@ -31,6 +35,28 @@ def test_what_is_left_behind_is_counted(adapter: str, cause: str | None) -> None
     answer, finding = examined
     assert (finding and (finding.requirement, finding.cause)) == (cause and (FREED, cause))
     assert finding is None or set(finding.events) <= {event.n for event in answer.trace}
+
+
+class _StillEnding:
+    """A driver whose host holds one thread more after the warm-up than it keeps, and keeps one of each runtime."""
+
+    def __init__(self) -> None:
+        self.runtimes = 0
+
+    def many_times(self, name: str, scenario: Scenario) -> Generator[tuple[Answer, Usage | None], None, None]:
+        while True:
+            self.runtimes += 1
+            yield Answer(name, scenario, scenario, ()), Usage(1 + self.runtimes + (self.runtimes == 2), 3)
+
+    @property
+    def usage(self) -> Usage:
+        return Usage(1 + self.runtimes, 3)
+
+
+def test_a_thread_that_still_ends_after_the_warm_up_hides_no_leak() -> None:
+    examined = examine(cast(Driver, _StillEnding()), "destroy", SCENARIO, 0.0)
+    assert examined is not None
+    assert examined[1] is not None
 
 
 def test_a_host_that_shares_the_harness_process_is_not_counted() -> None:
