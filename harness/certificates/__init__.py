@@ -1,0 +1,1 @@
+"""Certificates: signed archives from which a stranger derives every verdict again, without the product."""
