@@ -282,4 +282,5 @@ class Campaign:
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
             ),
             incomplete=incomplete,
+            isolation=self._driver.isolation,
         )

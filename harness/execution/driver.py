@@ -26,7 +26,7 @@ from ucm_cts.harness.hosting.hosts import Hosts, Limits
 from ucm_cts.harness.hosting.locate import Endpoint, namesakes
 from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.unanswered_calls import is_left_open
-from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind, Isolation
 
 __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 
@@ -114,6 +114,11 @@ class Driver:
     def adapter_file(self) -> str:
         """The file that the adapter was loaded from; empty as long as it is not known."""
         return self._hosts.file
+
+    @property
+    def isolation(self) -> Isolation:
+        """Where the code behind the endpoint runs."""
+        return self._hosts.isolation
 
     @property
     def warnings(self) -> tuple[str, ...]:

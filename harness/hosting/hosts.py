@@ -41,7 +41,7 @@ from ucm_cts.harness.hosting.host_watch import (
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
 from ucm_cts.harness.hosting.remote_hosts import Connector
 from ucm_cts.harness.results.foreign import one_line
-from ucm_cts.harness.results.values import Incident
+from ucm_cts.harness.results.values import Incident, Isolation
 
 __all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
 
@@ -174,6 +174,13 @@ class Hosts:
         finally:
             self.discard()
         return answer
+
+    @property
+    def isolation(self) -> Isolation:
+        """Where the adapter runs."""
+        if self._endpoint.in_process:
+            return "none"
+        return "remote" if self._endpoint.kind in ("tcp", "unix") else "process"
 
     @property
     def usage(self) -> Usage | None:

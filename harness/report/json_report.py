@@ -136,7 +136,8 @@ class ReportEntry(Entry, frozen=True):
     """The whole of ``report.json``.
 
     ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
-    empty after a run of everything. ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are
+    empty after a run of everything. ``isolation`` says where the product's code ran: ``bubblewrap``, in a sandbox; ``process``, in
+    processes beside the harness; ``none``, in its own; ``remote``, behind a socket. ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are
     what its vendor should know of it.
     """
 
@@ -161,6 +162,7 @@ class ReportEntry(Entry, frozen=True):
     runs: int
     incomplete: str = ""
     selection: str = ""
+    isolation: v.Isolation = "process"
     adapter_file: str = ""
     warnings: tuple[str, ...] = ()
     provoked: dict[str, int] = {}

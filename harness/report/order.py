@@ -14,6 +14,7 @@ from ucm_cts.harness.results.values import (
     SIDES,
     FrameworkReport,
     IncidentReport,
+    Isolation,
     Overall,
     Report,
     RequirementResult,
@@ -37,6 +38,14 @@ SYMBOLS: dict[Shown, str] = {
     "not applicable": "–",
 }
 """A symbol a verdict, so that colour is never needed."""
+
+ISOLATIONS: dict[Isolation, str] = {
+    "bubblewrap": "in a sandbox (bubblewrap): could neither see nor reach the harness",
+    "process": "as processes of the same user: could reach the harness and its files",
+    "none": "in the process of the harness: for debugging, proves nothing to others",
+    "remote": "elsewhere, behind a socket: out of the harness' reach",
+}
+"""What to say of where the code of the product ran."""
 
 SEALS: dict[Overall, str] = {"conformant": "✓", "not conformant": "✗", "inconclusive": "?"}
 """The same for the verdict of a run."""

@@ -7,7 +7,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
-from ucm_cts.harness.report.order import SEALS, SYMBOLS
+from ucm_cts.harness.report.order import ISOLATIONS, SEALS, SYMBOLS
 from ucm_cts.harness.results.foreign import one_line
 
 _TEMPLATES = Path(__file__).parent / "templates"
@@ -23,7 +23,9 @@ def rendered(template: str, **values: object) -> str:
         lstrip_blocks=True,
     )
     environment.filters["one_line"] = one_line
-    return environment.get_template(template).render(style=part("report.css"), symbols=SYMBOLS, seals=SEALS, **values)
+    return environment.get_template(template).render(
+        style=part("report.css"), symbols=SYMBOLS, seals=SEALS, isolations=ISOLATIONS, **values
+    )
 
 
 def part(name: str) -> Markup:

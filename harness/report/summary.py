@@ -9,6 +9,7 @@ from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
 from ucm_cts.harness.report.order import (
+    ISOLATIONS,
     SEALS,
     SYMBOLS,
     Fix,
@@ -26,7 +27,14 @@ from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incidents import is_unexplained
 from ucm_cts.harness.results.known_failures import all_known
-from ucm_cts.harness.results.values import IncidentReport, Overall, Report, RequirementResult, incidents_of
+from ucm_cts.harness.results.values import (
+    FrameworkReport,
+    IncidentReport,
+    Overall,
+    Report,
+    RequirementResult,
+    incidents_of,
+)
 
 SHOWN = 12
 """The number of failed requirements, and of incidents, that are listed."""
@@ -60,6 +68,10 @@ def summary(report: Report, out: Path | None = None, whole: bool = False, everyt
             f"  {name}, profile {one_line(report.profile, 40)}{only}",
         ),
         _counts(report),
+        Text(
+            f"  {'hosts' if isinstance(report, FrameworkReport) else 'commands'} ran {ISOLATIONS[report.isolation]}",
+            "dim",
+        ),
         *(Text(f"  {side}", "dim") for side in sides(report)),
         *(Text(f"  warning: {one_line(warning, 600)}", "yellow") for warning in getattr(report, "warnings", ())),
     ]

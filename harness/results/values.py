@@ -178,6 +178,11 @@ class IncidentReport(Value, frozen=True):
     requirements: tuple[str, ...] = ()
 
 
+Isolation = Literal["bubblewrap", "process", "none", "remote"]
+"""Where the code of the product ran: in a sandbox, where it can neither see nor reach the harness; in processes of the same user;
+in the process of the harness; or somewhere else, behind a socket. ``docs/verdicts.md`` says what each is worth."""
+
+
 class Effort(Value, frozen=True):
     """The effort of a run: ``measures`` are the sums that properties report (overlaps provoked, calls stressed ...),
     ``seconds`` the time spent, by clause.
@@ -207,6 +212,7 @@ class Report(Value, frozen=True):
     """Why the run ended before its end, empty if it did not. What is incomplete is not conformant."""
     selection: str = ""
     """What ``-k`` selected; empty after a run of everything. What was not selected and not shown either has no verdict."""
+    isolation: Isolation = "process"
 
 
 class FrameworkReport(Report, frozen=True, kw_only=True):
