@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
+from ucm_cts.harness.report.matrix import in_words, matrix
 from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, Shown, clause_key, count, shown
 from ucm_cts.harness.report.published import PublishedResult, PublishedVerdict, by_product
 from ucm_cts.harness.results.foreign import one_line
@@ -14,6 +15,10 @@ DEPTH = 3
 
 _ALWAYS = tuple(verdict for verdict in VERDICTS if verdict != "not followed")
 """The verdicts that have a column in any case."""
+
+
+def _verdict(cell: PublishedResult | None) -> str:
+    return ": ".join(in_words(cell.verdict, cell.requirements)) if cell else ""
 
 
 def _columns(results: Iterable[PublishedResult]) -> list[Shown]:
@@ -26,14 +31,15 @@ def _legend(results: Iterable[PublishedResult]) -> str:
 
 
 def overview(results: Sequence[PublishedResult]) -> list[str]:
-    """The lines of the tables of all products: verdicts, verdicts by clause, and where frameworks differ."""
+    """The lines of the tables of all products: the matrix, verdicts by clause, and where frameworks differ."""
     frameworks = [result for result in results if result.profile in FRAMEWORK_PROFILES]
     toolchains = [result for result in results if result.profile not in FRAMEWORK_PROFILES]
-    heads = _columns(results)
+    whole = matrix(results)
     rows = [
-        (f"[{_name(r)}]({r.folder}/README.md)", r.profile, r.verdict, *_counts(r.requirements, heads)) for r in results
+        (f"[{_name(row.held[0])}]({row.held[0].folder}/README.md)", *(_verdict(cell) for cell in row.cells))
+        for row in whole.rows
     ]
-    lines = ["## Verdicts", "", *table(("product", "profile", "verdict", *heads), rows)]
+    lines = ["## Products and profiles", "", *table(("product", *whole.profiles), rows)]
     for title, group in ("Frameworks", frameworks), ("Tool chains", toolchains):
         if group:
             lines += ["", f"## {title} by clause", "", f"{_legend(results)}.", "", *_by_clause(group)]
