@@ -27,6 +27,7 @@ from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.cli.toolchain_command import ToolChainRun, certify_toolchain, profiles_of
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.offers import LIMITS, offers_of
+from ucm_cts.harness.hosting.extras import remedy_for
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
@@ -309,6 +310,10 @@ def main() -> None:
     except (click.exceptions.Abort, KeyboardInterrupt):
         click.echo("ucm-cts: interrupted", err=True)
         sys.exit(options.HARNESS_FAILED)
+    except ImportError as error:
+        remedy = remedy_for(error)
+        click.echo(f"ucm-cts: {remedy or f'the harness failed: {type(error).__name__}: {error}'}", err=True)
+        sys.exit(options.WRONG_USE if remedy else options.HARNESS_FAILED)
     except Exception as error:  # noqa: BLE001 - the last resort: a user sees one line, not a traceback
         click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
         sys.exit(options.HARNESS_FAILED)

@@ -12,6 +12,7 @@ from rich.table import Table
 
 from ucm_cts.harness.cli.options import HARNESS_FAILED, out_folder
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.hosting.extras import need
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.out_folder import OutFolder
 from ucm_cts.harness.report.write import keep_files
@@ -64,6 +65,7 @@ def selftest(
     cheats: list[str] = []
     models: tuple[str, ...] = ()
     if toolchains:
+        need("toolchain", "examining tool chains")
         subjects = all_subjects()
         chosen: list[Subject | ToolChainSubject] = list(names(subjects, names_wanted))
     else:

@@ -11,6 +11,7 @@ from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.cli.last_run import failed_in
 from ucm_cts.harness.cli.options import greet, leave_with, name_of, nothing_selected
 from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.hosting.extras import need
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.selection import words_of
 from ucm_cts.harness.report.write import keep_report, report_folder
@@ -48,6 +49,7 @@ class ToolChainRun:
 def certify_toolchain(wanted: ToolChainRun) -> NoReturn:
     """Run it, write the report, and end. Raises ``WrongUse`` and ``DocumentError``."""
     path, profile, expression = wanted.path, wanted.profile, wanted.expression
+    need("toolchain", "certifying a tool chain")
     if profile not in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
     toolchain = read_toolchain(path)

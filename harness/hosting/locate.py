@@ -30,6 +30,9 @@ FORMS = "a short name, package.module:Class, package.module, a path, tcp://HOST:
 LONGEST_SOCKET = 107
 """The bytes that the system takes for the path of a socket."""
 
+_COMPILED = Path(__file__).parents[2] / "adapters" / "bin"
+"""Where the compiled adapters of this installation are, if there was a compiler."""
+
 EndpointKind = Literal["python", "executable", "tcp", "unix"]
 
 
@@ -166,6 +169,11 @@ def _address(text: str) -> str:
 
 
 def _parse_path(text: str, path: Path) -> Endpoint:
+    if path.parent == _COMPILED and not os.path.isfile(path):
+        raise WrongUse(
+            f"'{path.name}' is a compiled part of ucm-cts, and this installation has none: install a C++ compiler, cmake and "
+            "nlohmann-json3-dev, then ucm-cts again, with UCM_CTS_COMPILED=1 to see what is missing"
+        )
     if not os.path.isfile(path):  # also of a name that is too long to ask for
         raise WrongUse(
             f"there is no file '{text}'" if not os.path.exists(path) else f"'{text}' is no file; name the adapter in it"

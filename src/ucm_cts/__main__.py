@@ -21,7 +21,14 @@ def _open_standard_streams() -> None:
 def main() -> None:
     """Run the command line; ``--cmakedir`` prints where CMake finds the package."""
     if sys.argv[1:] == ["--cmakedir"]:
-        print(Path(__file__).parent / "share" / "cmake" / "ucm_cts")
+        folder = Path(__file__).parent / "share" / "cmake" / "ucm_cts"
+        if not folder.is_dir():
+            sys.stderr.write(
+                "ucm-cts: this installation has no CMake package: install a C++ compiler, cmake and nlohmann-json3-dev, then "
+                "ucm-cts again, with UCM_CTS_COMPILED=1 to see what is missing\n"
+            )
+            sys.exit(2)
+        print(folder)
         return
     _open_standard_streams()
     try:

@@ -6,8 +6,6 @@ import functools
 from collections.abc import Iterator
 from typing import Any
 
-import re2
-
 
 class WrongExpression(ValueError):
     """It is no regular expression; the text says why."""
@@ -16,6 +14,8 @@ class WrongExpression(ValueError):
 @functools.cache
 def compiled(expression: str) -> Any:
     """``expression``, with ``^`` and ``$`` at the ends of lines. Raises ``WrongExpression``."""
+    import re2  # part of the extra toolchain only
+
     options = re2.Options()
     options.log_errors = False
     try:

@@ -86,7 +86,7 @@ class NotThere(Exception):
 def answers(request: Request) -> Answers:
     """What libclang has to say of ``request``."""
     if cindex is None:
-        return Answers(problem="libclang cannot be used: install the package libclang")
+        return Answers(problem="libclang cannot be used: pip install 'ucm-cts[toolchain]'")
     answers = Answers(problem="nothing was tried")
     for options in request.attempts:
         answers = _Tree(request, options).answers()

@@ -9,13 +9,7 @@ import functools
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
-from lark import Lark, Token
-from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
-from lark.lexer import PatternRE, PatternStr, TerminalDef
-
-from ucm_cts.harness.toolchains.idl.language.building import Builder
 from ucm_cts.harness.toolchains.idl.language.preprocessing import LARGEST, Preprocessed, preprocessed, without_comments
 from ucm_cts.harness.toolchains.idl.language.problems import NotIdl, Problem, problem_at
 from ucm_cts.reference_models.mapping.idl.declarations import Declaration, Expression
@@ -114,51 +108,9 @@ def _parsed(text: str, file: str, start: str) -> tuple[Declaration, ...] | Expre
     _bounded(text, file)
     if ">>" in text:
         text = _shifts_marked(text) if start != "start" else _VALUE.sub(lambda m: _shifts_marked(m[0]), text)
-    parser, builder = _parser()
-    builder.begin(file)
-    try:
-        parsed: tuple[Declaration, ...] | Expression = parser.parse(text, start=start)  # type: ignore[assignment]
-    except UnexpectedInput as error:
-        raise NotIdl(_problem_of(error, text, file)) from None
-    if builder.reserved is not None:
-        word = builder.reserved
-        raise NotIdl(
-            Problem(file, word.line or 0, word.column or 0, f"'{word}' is a keyword of IDL; write '_{word}' for a name")
-        )
-    return parsed
+    from ucm_cts.harness.toolchains.idl.language.parsing import parsed  # its parser is part of the extra toolchain only
+
+    return parsed(text, file, start)
 
 
-def _problem_of(error: UnexpectedInput, text: str, file: str) -> Problem:
-    if isinstance(error, UnexpectedToken) and error.token.type != "$END":
-        met = f"'{error.token[:40]}'"
-    elif isinstance(error, UnexpectedCharacters):
-        met = repr(text[error.pos_in_stream] if error.pos_in_stream is not None else "")
-    else:
-        last = text.rstrip()
-        return problem_at(text, len(last), file, "the text ends before its declarations do")
-    assert not isinstance(error, UnexpectedEOF)
-    return Problem(file, error.line, error.column, f"{met} is not expected here")
-
-
-@functools.cache
-def _parser() -> tuple[Lark, Builder]:
-    builder = Builder()
-    lark = Lark(
-        (Path(__file__).parent / "grammar.lark").read_text(),
-        parser="lalr",
-        lexer="contextual",
-        start=["start", "expression_alone"],
-        transformer=builder,
-        edit_terminals=_whole_words,
-    )
-    return lark, builder
-
-
-def _whole_words(terminal: TerminalDef) -> None:
-    """Keywords end where words end: ``longlong`` is a name."""
-    if isinstance(terminal.pattern, PatternStr) and terminal.pattern.value.isalnum():
-        terminal.pattern = PatternRE(rf"{terminal.pattern.value}\b")
-        terminal.priority = 2
-
-
-__all__ = ["LARGEST", "Files", "NotIdl", "Problem", "Token", "read_expression", "read_files", "read_idl"]
+__all__ = ["LARGEST", "Files", "NotIdl", "Problem", "read_expression", "read_files", "read_idl"]
