@@ -28,7 +28,8 @@ def examine_cheat(cheat: Cheat) -> CheatResult:
     began = time.monotonic()
     report = report_on(cheat)
     came_out = tuple(sorted(what_came_out(report)))
-    found = report.verdict != "conformant" and set(cheat.detected_by) <= set(came_out)
+    shown = any(due and set(due) <= set(came_out) for due in (cheat.detected_by, cheat.or_else))
+    found = report.verdict != "conformant" and shown
     as_it_should = found if cheat.detected_by else not came_out
     seconds = round(time.monotonic() - began, 3)
     return CheatResult(cheat.name, cheat.lie, cheat.detected_by, came_out, as_it_should, seconds)

@@ -59,6 +59,7 @@ class Cheat:
     """An adapter that hides what a framework does. ``detected_by`` says what must come out, all of it: requirements that fail,
     or kinds of incident; nothing if no observation can tell it from an honest adapter of a conformant framework.
 
+    ``or_else`` says what comes out instead where ``detected_by`` depends on time and the machine is busy.
     ``endpoint`` is how it is named on the command line. ``rehearsals`` are runs in which it learns, before it cheats.
     """
 
@@ -69,6 +70,7 @@ class Cheat:
     clauses: tuple[str, ...] = CONTAINER
     rehearsals: int = 0
     adapter: type[ReferenceAdapter] | None = None
+    or_else: tuple[str, ...] = ()
 
 
 MUTANTS: dict[str, Mutant] = {}

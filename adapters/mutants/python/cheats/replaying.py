@@ -94,7 +94,9 @@ def _filled(template: str, names: list[str]) -> str:
     return re.sub(r"<(~?)(\d+)>", name, template)
 
 
-def plays(name: str, lie: str, *detected_by: str, clauses: tuple[str, ...] = CONTAINER) -> None:
+def plays(
+    name: str, lie: str, *detected_by: str, clauses: tuple[str, ...] = CONTAINER, or_else: tuple[str, ...] = ()
+) -> None:
     """Register the module ``name`` of this package as a cheat."""
     lie = " ".join(lie.split())
-    CHEATS[name] = Cheat(name, f"{__package__}.{name}", lie, detected_by, clauses, rehearsals=1)
+    CHEATS[name] = Cheat(name, f"{__package__}.{name}", lie, detected_by, clauses, rehearsals=1, or_else=or_else)
