@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from time import monotonic, sleep  # an adapter may change what the module has, not these
 
 from ucm_cts.adapters.sdk.python.seal import KeptClass
 
@@ -90,8 +90,8 @@ class Occupancy(metaclass=KeptClass):
         own = object()
         met = self._inside is not None
         self._inside = own
-        if int(time.monotonic() * _SLOTS) % 2:
-            time.sleep(0)  # releases the interpreter's lock, so that another thread can enter
+        if int(monotonic() * _SLOTS) % 2:
+            sleep(0)  # releases the interpreter's lock, so that another thread can enter
         else:
             for _ in range(_WORK):
                 pass
@@ -129,8 +129,8 @@ class Storm(metaclass=KeptClass):
     def _keep_visiting(self, visit: Callable[[], object]) -> None:
         calls = failed = 0
         self._together.wait()
-        end = time.monotonic() + self._seconds
-        while time.monotonic() < end:
+        end = monotonic() + self._seconds
+        while monotonic() < end:
             try:
                 visit()
                 calls += 1

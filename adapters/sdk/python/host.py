@@ -18,12 +18,14 @@ import stat
 import sys
 import threading
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from typing import NoReturn
 from urllib.parse import urlsplit
 
-from ucm_cts.adapters.contract.messages import Traced, from_host_decoder
+from ucm_cts.adapters.contract.messages import Traced, Welcome, encode, from_host_decoder, refusal
 from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, file_of, load
+from ucm_cts.adapters.sdk.python.seal import Seal, replaces
 from ucm_cts.adapters.sdk.python.template import Template, adopt_orphans, refuse
 
 _GRACE = 30.0  # seconds a host may continue after its connection has ended
@@ -37,6 +39,9 @@ def main() -> None:
     how.add_argument("--control", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
     control = socket.socket(fileno=options.control) if options.control is not None else None
+    sys.breakpointhook = _say_breakpoint
+    # found before the adapter is loaded, which could replace them
+    become_host, listen, make_template, find_file, look = serve, _listen, Template, file_of, _seal().broken
     if control:
         adopt_orphans()
     try:
@@ -46,25 +51,32 @@ def main() -> None:
             refuse(control, str(error))
         parser.exit(2, f"{parser.prog}: {error}\n")
     if control:
-        Template(control, lambda source, target: serve(answer, source, target), file_of(options.adapter)).serve()
+        make_template(
+            control, lambda source, target: become_host(answer, source, target, look), find_file(options.adapter)
+        ).serve()
     elif options.listen:
         try:
             listener = _open_listener(options.listen)
         except (OSError, ValueError) as error:
             parser.exit(2, f"{parser.prog}: cannot listen on {options.listen}: {error}\n")
-        _listen(listener, answer)
+        listen(listener, answer, look)
     else:
-        serve(answer, os.dup(0), os.dup(1))
+        become_host(answer, os.dup(0), os.dup(1), look)
 
 
-def serve(answer: Answer, source: int, target: int) -> NoReturn:
+def _seal() -> Seal:
+    """What the engine's own seal cannot guard: the engine itself with its seal, and what surrounds it."""
+    names = (f"{__package__}.{part}" for part in ("engine", "loading", "seal", "template"))
+    return Seal().remember([sys.modules[__name__], *(sys.modules[name] for name in names)])
+
+
+def serve(answer: Answer, source: int, target: int, look: Callable[[], str | None] = lambda: None) -> NoReturn:
     """Answer the lines that come from descriptor ``source`` to descriptor ``target`` until there are no more.
 
     Takes the process over: what is printed goes to standard error, ``SIGUSR1`` prints the stacks of all threads there,
-    and the process ends without waiting for threads.
+    and the process ends without waiting for threads. ``look`` says what has been replaced here; then no run is answered.
     """
     _keep_streams_apart()
-    sys.breakpointhook = _say_breakpoint
     faulthandler.enable(file=2)
     faulthandler.register(signal.SIGUSR1, file=2, all_threads=True)
 
@@ -79,6 +91,9 @@ def serve(answer: Answer, source: int, target: int) -> NoReturn:
                 if line == b"\n":
                     continue
                 reply = answer(line, write)
+                replaced = look()
+                if replaced is not None and not isinstance(from_host_decoder().decode(reply), Welcome):
+                    reply = encode(refusal(line, replaces(replaced)))
                 write(reply + b"\n")
                 if _is_stuck(reply):
                     break
@@ -143,7 +158,7 @@ def _remove_stale(path: str) -> None:
                     os.unlink(path)
 
 
-def _listen(listener: socket.socket, answer: Answer) -> NoReturn:
+def _listen(listener: socket.socket, answer: Answer, look: Callable[[], str | None]) -> NoReturn:
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # ended hosts need no farewell
     while True:
         connection, _ = listener.accept()
@@ -155,7 +170,7 @@ def _listen(listener: socket.socket, answer: Answer) -> NoReturn:
                     connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
                 descriptor = connection.detach()
                 threading.Thread(target=_watch, args=(descriptor,), daemon=True).start()
-                serve(answer, descriptor, os.dup(descriptor))
+                serve(answer, descriptor, os.dup(descriptor), look)
             finally:
                 os._exit(70)
         connection.close()

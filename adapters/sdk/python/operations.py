@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from functools import partial
+from time import monotonic, sleep  # an adapter may change what the module has, not these
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
@@ -170,12 +170,12 @@ class Operations(metaclass=KeptClass):
 
     def _read_log(self, step: s.ReadLog) -> Callable[[], Any]:
         def operate() -> tuple[t.LogRecord, ...]:
-            until = time.monotonic() + self._patience
+            until = monotonic() + self._patience
             while True:
                 records = tuple(_records(self._adapter.read_log(self._manager)))
-                if len(records) >= step.records or time.monotonic() >= until:
+                if len(records) >= step.records or monotonic() >= until:
                     return records
-                time.sleep(_BETWEEN_READINGS)
+                sleep(_BETWEEN_READINGS)
 
         return operate
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 import threading
-import time
 from collections import deque
 from collections.abc import Callable
-from pathlib import Path
+from time import monotonic, sleep  # an adapter may change what the module has, not these
 from typing import Literal
 
 from ucm_cts.adapters.sdk.python.seal import KeptClass
@@ -21,6 +20,8 @@ _SAMPLES = 5
 
 _BETWEEN_SAMPLES = 0.0005
 """Seconds. The sampling thread releases the interpreter's lock meanwhile, so that a thread that only waits for that lock wakes up."""
+
+_ASLEEP = re.compile(r"^State:\s+S.*^voluntary_ctxt_switches:\s+(\d+)", re.MULTILINE | re.DOTALL)
 
 
 class _Worker:
@@ -91,7 +92,7 @@ class Workers(metaclass=KeptClass):
         """
         with self._lock:
             worker = self._workers.get(name)
-        deadline = time.monotonic() + self._patience
+        deadline = monotonic() + self._patience
         before, samples = None, 0
         while worker and not worker.wait_until_idle(0):
             if is_held(worker.thread):
@@ -101,18 +102,18 @@ class Workers(metaclass=KeptClass):
             before = sleeps
             if before is not None and samples >= _SAMPLES:
                 return "blocked"
-            if time.monotonic() >= deadline:
+            if monotonic() >= deadline:
                 return "running"
-            time.sleep(_BETWEEN_SAMPLES)
+            sleep(_BETWEEN_SAMPLES)
         return "done"
 
     def finish(self) -> tuple[str, ...]:
         """End all workers; returns the names of those that did not come back in time. Queue nothing afterwards."""
-        deadline = time.monotonic() + self._patience
+        deadline = monotonic() + self._patience
         stuck = []
         for name, worker in self._workers.items():
             worker.quit()
-            if not worker.wait_until_idle(deadline - time.monotonic()):
+            if not worker.wait_until_idle(deadline - monotonic()):
                 stuck.append(name)
         return tuple(stuck)
 
@@ -120,8 +121,9 @@ class Workers(metaclass=KeptClass):
 def _sleeps(thread: threading.Thread) -> int | None:
     """How often ``thread`` has gone to sleep, if it sleeps now; None if it does not, or it is unknown."""
     try:
-        status = Path(f"/proc/self/task/{thread.native_id}/status").read_text()
+        with open(f"/proc/self/task/{thread.native_id}/status") as stream:
+            status = stream.read()
     except OSError:
         return None
-    found = re.search(r"^State:\s+S.*^voluntary_ctxt_switches:\s+(\d+)", status, re.MULTILINE | re.DOTALL)
+    found = _ASLEEP.search(status)
     return int(found[1]) if found else None

@@ -29,7 +29,7 @@ from ucm_cts.adapters.contract.programming_model import Implementation, PortConn
 from ucm_cts.adapters.contract.scenario import SELF_EXECUTING, SELF_EXECUTION_API
 from ucm_cts.adapters.contract.trace import Enter
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
-from ucm_cts.adapters.sdk.python import engine, workers
+from ucm_cts.adapters.sdk.python import workers
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.hosting.hosts import Hosts
@@ -184,8 +184,11 @@ def test_worker_counts_as_running_if_the_operating_system_does_not_report_its_st
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(workers, "_sleeps", lambda thread: None)
-    monkeypatch.setattr(engine, "SEAL", engine.sealed())
-    assert "settled worker=w where=running" in play({}, BLOCKS, Waits, patience=50)
+    awake = threading.Event()
+    threads = workers.Workers(patience=0.05)
+    threads.queue("w", awake.wait)  # type: ignore[arg-type]
+    assert threads.settle("w", lambda thread: False) == "running"
+    awake.set()
 
 
 def test_probes_that_execute_themselves_can_be_run() -> None:
