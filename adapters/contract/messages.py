@@ -157,6 +157,8 @@ def protocol_schema() -> dict[str, Any]:
     definitions["Declaration"]["properties"]["plan"]["propertyNames"] = {"$ref": "#/$defs/Hook"}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:ucm-cts:schema:protocol:{PROTOCOL}",
+        "schema_version": PROTOCOL,
         "title": f"UCM-CTS wire protocol, version {PROTOCOL}",
         "description": "One message a line. A host reads to_host and writes from_host.",
         "anyOf": [{"$ref": "#/$defs/to_host"}, {"$ref": "#/$defs/from_host"}],

@@ -16,7 +16,7 @@ import msgspec
 from ucm_cts.harness.catalogue.documents import DocumentError, convert, read_lines, read_text
 from ucm_cts.harness.catalogue.requirements import Level
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.report.json_report import FindingEntry, ReportEntry, RequirementEntry
+from ucm_cts.harness.report.json_report import SCHEMA_VERSION, FindingEntry, ReportEntry, RequirementEntry
 from ucm_cts.harness.report.order import clause_key
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.tally import overall
@@ -114,6 +114,7 @@ class Comparison:
 def read_report(path: Path) -> ReportEntry:
     """The ``report.json`` at ``path``. Raises ``DocumentError``, naming the line, if it is none or contradicts itself."""
     text = read_text(path, LARGEST)
+    _check_version(path, text)
     try:
         report = msgspec.json.decode(text, type=ReportEntry)
     except msgspec.ValidationError as error:
@@ -124,6 +125,27 @@ def read_report(path: Path) -> ReportEntry:
     if contradiction:
         raise DocumentError(path, None, f"{contradiction}; {_REMEDY}")
     return report
+
+
+class _Versioned(msgspec.Struct, frozen=True):
+    schema_version: int | None = None
+    suite_version: str = ""
+
+
+def _check_version(path: Path, text: str) -> None:
+    """Raise ``DocumentError`` for a report of another version of the schema, which may mean something else by the same names."""
+    try:
+        found = msgspec.json.decode(text, type=_Versioned)
+    except (msgspec.MsgspecError, RecursionError):
+        return  # it is no report of any version, which its reader says better
+    if found.suite_version and found.schema_version != SCHEMA_VERSION:
+        which = f"schema version {found.schema_version}" if found.schema_version is not None else "no schema version"
+        by = one_line(found.suite_version, 40)
+        raise DocumentError(
+            path,
+            None,
+            f"has {which} (written by UCM-CTS {by}), and this one reads version {SCHEMA_VERSION}; run it again",
+        )
 
 
 def _contradiction(report: ReportEntry) -> str:
@@ -140,6 +162,14 @@ def _contradiction(report: ReportEntry) -> str:
             return f"{entry.id} is '{entry.verdict}', against its findings"
         if entry.verdict == "pass" and not entry.exercised:
             return f"{entry.id} is 'pass' and was never exercised"
+    left_out = sum(entry.verdict == "not applicable" for entry in report.requirements)
+    scope = report.scope
+    if (scope.profile, scope.asked + left_out, scope.not_applicable) != (
+        report.profile,
+        len(report.requirements),
+        left_out,
+    ):
+        return f"says '{one_line(scope.text)}', against its requirements"
     due = overall(report.requirements, report.incidents, report.incomplete)
     return "" if report.verdict == due else f"says '{report.verdict}', but what it holds is '{due}'"
 

@@ -25,6 +25,7 @@ from ucm_cts.harness.report.order import (
     to_fix,
 )
 from ucm_cts.harness.report.page import part, rendered
+from ucm_cts.harness.report.scope import scope_of
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
 from ucm_cts.harness.report.wanting import wanting
@@ -79,6 +80,7 @@ def to_html(
     return rendered(
         "report.html.jinja",
         report=report,
+        scope=scope_of(report, catalogue),
         counts=count(report.requirements),
         verdicts=VERDICTS,
         to_fix=fixes,

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import msgspec
 
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.harness.catalogue.requirements import Level, Requirement
+from ucm_cts.harness.report.scope import Scope, scope_of
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, shortest_first
 
 SCHEMA_FILE = "report.schema.json"
+
+SCHEMA_VERSION = 2
+"""Of ``report.json``. It changes with every field; readers refuse reports of other versions. Version 1 did not name itself."""
 
 EVENTS = 50
 """The most events of one finding that are written; a replay of the saved scenario shows all."""
@@ -132,19 +136,22 @@ class StatementEntry(Entry, frozen=True):
     models: tuple[str, ...]
 
 
-class ReportEntry(Entry, frozen=True):
+class ReportEntry(Entry, frozen=True, kw_only=True):
     """The whole of ``report.json``.
 
+    ``schema_version`` is that of this schema. ``scope`` says what the verdict is about.
     ``incomplete`` says why the run ended before its end, empty if it did not. ``selection`` is what ``-k`` selected,
     empty after a run of everything. ``isolation`` says where the product's code ran: ``bubblewrap``, in a sandbox; ``process``, in
     processes beside the harness; ``none``, in its own; ``remote``, behind a socket. ``adapter_file`` is the file that the adapter was loaded from, and ``warnings`` are
     what its vendor should know of it.
     """
 
+    schema_version: Literal[2] = SCHEMA_VERSION
     product: str
     version: str
     profile: str
     verdict: v.Overall
+    scope: Scope
     requirements: tuple[RequirementEntry, ...]
     incidents: tuple[IncidentEntry, ...]
     transitions: tuple[TransitionEntry, ...]
@@ -173,6 +180,7 @@ def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     known = {requirement.id: requirement for requirement in catalogue}
     entry = ReportEntry.of(
         report,
+        scope=scope_of(report, catalogue),
         requirements=tuple(_requirement(result, known) for result in report.requirements),
         statement=StatementEntry.of(report.statement),
         measures=report.effort.measures,
@@ -207,6 +215,7 @@ def schema() -> dict[str, Any]:
     """JSON Schema of ``report.json``."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:ucm-cts:schema:report:{SCHEMA_VERSION}",
         "title": "UCM-CTS conformance report",
         **msgspec.json.schema(ReportEntry),
     }

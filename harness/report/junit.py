@@ -10,6 +10,7 @@ from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.diagrams.excerpt import excerpt
 from ucm_cts.harness.report.diagrams.sequence import last_call
 from ucm_cts.harness.report.diagrams.sequence_text import failure_text, to_text
+from ucm_cts.harness.report.scope import scope_of
 from ucm_cts.harness.report.toolchain_body import command_text, fact_text
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
@@ -29,6 +30,7 @@ def to_junit(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     name = one_line(f"{report.product} {report.version}, profile {report.profile}{only}: {report.verdict}")
     root = etree.Element("testsuites", name=name)
     suites: dict[str, etree._Element] = {}
+    scope = scope_of(report, catalogue).text
     levels = {requirement.id: requirement.level for requirement in catalogue}
     if report.incomplete:
         case = _case(root, suites, "run", "the run is complete", report.seconds)
@@ -53,8 +55,11 @@ def to_junit(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
         _incident(case, incident, number, report)
     for suite in suites.values():
         _count(suite)
-        suite.set("time", f"{sum(float(case.get('time', '0')) for case in suite):.3f}")
+        suite.set("time", f"{sum(float(case.get('time', '0')) for case in suite.findall('testcase')):.3f}")
         suite.set("timestamp", clean(report.started, 40))
+        properties = etree.Element("properties")
+        etree.SubElement(properties, "property", name="scope", value=one_line(scope, 300))
+        suite.insert(0, properties)
     _count(root)
     root.set("time", f"{report.seconds:.3f}")
     return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)

@@ -22,6 +22,7 @@ from ucm_cts.harness.report.order import (
     sides,
     to_fix,
 )
+from ucm_cts.harness.report.scope import scope_of
 from ucm_cts.harness.report.wanting import wanting
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
@@ -67,6 +68,7 @@ def summary(report: Report, out: Path | None = None, whole: bool = False, everyt
             (f"{SEALS[report.verdict]} {report.verdict.upper()}{known}", _STYLES[report.verdict]),
             f"  {name}, profile {one_line(report.profile, 40)}{only}",
         ),
+        Text(f"  {scope_of(report).text}", "dim"),
         _counts(report),
         Text(
             f"  {'hosts' if isinstance(report, FrameworkReport) else 'commands'} ran {ISOLATIONS[report.isolation]}",

@@ -34,7 +34,7 @@ def requirement(id_: str, verdict: Verdict, observed: str = "that") -> Requireme
 def report(name: str, *requirements: RequirementEntry, **changes: Any) -> ReportEntry:
     verdicts = {entry.verdict for entry in requirements}
     overall = "not conformant" if "fail" in verdicts else "inconclusive" if "inconclusive" in verdicts else "conformant"
-    made = {
+    made: dict[str, Any] = {
         "product": name,
         "version": "1",
         "verdict": overall,
@@ -42,7 +42,11 @@ def report(name: str, *requirements: RequirementEntry, **changes: Any) -> Report
         "incidents": (),
         "readings": {},
     }
-    return msgspec.structs.replace(SAMPLE, **{**made, **changes})
+    made |= changes
+    left_out = sum(entry.verdict == "not applicable" for entry in requirements)
+    asked = {"profile": made.get("profile", SAMPLE.profile), "asked": len(requirements) - left_out}
+    scope = msgspec.structs.replace(SAMPLE.scope, not_applicable=left_out, **asked)
+    return msgspec.structs.replace(SAMPLE, scope=scope, **made)
 
 
 def save(folder: Path, *reports: ReportEntry) -> list[Path]:
@@ -198,6 +202,16 @@ BROKEN: dict[str, tuple[bytes, str]] = {
     "failure hidden": (
         edited(lambda c: c["requirements"][1].update(verdict="pass")),
         "is 'pass', against its findings",
+    ),
+    "not all asked": (edited(lambda c: c["requirements"].pop(0)), "4 requirements asked, .*against its requirements"),
+    "another profile": (edited(lambda c: c.update(profile="core")), "profile container: .*against its requirements"),
+    "older": (
+        edited(lambda c: c.pop("schema_version")),
+        "has no schema version .*and this one reads version 2; run it again",
+    ),
+    "newer": (
+        edited(lambda c: c.update(schema_version=3, new=1)),
+        "has schema version 3 .*reads version 2; run it again",
     ),
     "verdict hidden": (edited(lambda c: c.update(verdict="conformant")), "says 'conformant', but what it holds is"),
 }

@@ -28,10 +28,13 @@ from made_up_run import (
 from rich.console import Console
 
 from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.catalogue.specification import load_specification
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.report import json_report, order
 from ucm_cts.harness.report.diagrams import transitions
 from ucm_cts.harness.report.out_folder import MANIFEST
+from ucm_cts.harness.report.scope import scope_of
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import write_report
 from ucm_cts.harness.results.foreign import LONGEST, LONGEST_STACKS, clean, clean_report, one_line
@@ -231,10 +234,11 @@ JUNIT = """
 <grammar xmlns="http://relaxng.org/ns/structure/1.0" datatypeLibrary="http://www.w3.org/2001/XMLSchema-datatypes">
   <start><element name="testsuites"><ref name="counts"/><attribute name="time"/>
     <oneOrMore><element name="testsuite"><ref name="counts"/><attribute name="timestamp"/><attribute name="time"/>
+      <element name="properties"><ref name="property"/></element>
       <oneOrMore><element name="testcase">
         <attribute name="classname"/><attribute name="name"/><attribute name="time"/>
         <optional><element name="properties"><oneOrMore>
-          <element name="property"><attribute name="name"/><attribute name="value"/></element>
+          <ref name="property"/>
         </oneOrMore></element></optional>
         <optional><choice>
           <element name="failure"><ref name="reported"/></element>
@@ -251,6 +255,7 @@ JUNIT = """
     <attribute name="errors"><data type="integer"/></attribute>
     <attribute name="skipped"><data type="integer"/></attribute>
   </define>
+  <define name="property"><element name="property"><attribute name="name"/><attribute name="value"/></element></define>
   <define name="reported"><attribute name="message"/><attribute name="type"/><text/></define>
 </grammar>
 """
@@ -314,7 +319,18 @@ def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
     document = json.loads((out / "report.json").read_text(encoding="utf-8"))
     jsonschema.validate(document, json_report.schema())
     assert list(document) == [
-        *("product", "version", "profile", "verdict", "requirements", "incidents", "transitions", "adapter"),
+        *(
+            "schema_version",
+            "product",
+            "version",
+            "profile",
+            "verdict",
+            "scope",
+            "requirements",
+            "incidents",
+            "transitions",
+            "adapter",
+        ),
         *("suite_version", "seed", "started", "seconds", "scenarios", "events", "statement", "readings"),
         *("measures", "seconds_by_clause", "runs", "incomplete", "selection", "isolation"),
         *("adapter_file", "warnings", "provoked"),
@@ -337,6 +353,41 @@ def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
     finding = failed["findings"][0]
     assert finding["replay"] == "failures/R-11.1.3-01.json"
     assert [event["kind"] for event in finding["events"]] == ["reply"]
+
+
+def test_the_verdict_says_what_it_is_about_everywhere(out: Path, page: Any) -> None:
+    text = scope_of(clean_report(sample()), CATALOGUE).text
+    numbers = re.search(r"profile container: (\d+) requirements asked, (\d+) not applicable, (\d+) not testable$", text)
+    assert numbers, text
+    assert text.startswith(f"{load_specification().name}, ")
+    document = json.loads((out / "report.json").read_text(encoding="utf-8"))
+    verdicts = [entry["verdict"] for entry in document["requirements"]]
+    left_out = verdicts.count("not applicable")
+    untestable = sum(bool(requirement.untestable) for requirement in CATALOGUE)
+    assert [int(n) for n in numbers.groups()] == [len(verdicts) - left_out, left_out, untestable]
+    assert document["scope"] == {
+        "specification": msgspec.to_builtins(load_specification()),
+        "profile": "container",
+        "asked": len(verdicts) - left_out,
+        "not_applicable": left_out,
+        "not_testable": untestable,
+    }
+    assert text in page.xpath("string(//*[contains(@class, 'verdict')]//*[contains(@class, 'scope')])")
+    junit = etree.parse(out / "junit.xml")
+    assert {p.get("value") for p in junit.iterfind("testsuite/properties/property[@name='scope']")} == {text}
+
+
+def test_the_terminal_says_the_scope_of_a_selection() -> None:
+    """What cannot be tested is counted among what -k selects only."""
+    whole, part = (
+        scope_of(msgspec.structs.replace(sample(), selection=expression)) for expression in ("", "R-11.2.2.1-")
+    )
+    untestable = [r for r in load_requirements() if r.profile == "container" and r.untestable]
+    assert whole.not_testable == len(untestable)
+    assert part.not_testable == sum(r.id.startswith("R-11.2.2.1-") for r in untestable)
+    printed = io.StringIO()
+    Console(file=printed, width=400).print(summary(clean_report(sample())))
+    assert whole.text in printed.getvalue()
 
 
 def test_the_schema_in_the_tree_is_that_of_the_types() -> None:
