@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
-from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
-from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.cli.last_run import failed_in
 from ucm_cts.harness.cli.options import greet, leave_with, name_of, nothing_selected
 from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
@@ -16,15 +16,18 @@ from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.selection import words_of
 from ucm_cts.harness.report.write import keep_report, report_folder
 from ucm_cts.harness.results.foreign import one_line
-from ucm_cts.harness.results.known_failures import known_today
-from ucm_cts.harness.results.statement import default_statement
-from ucm_cts.harness.results.tally import ended_early, of_selection
+from ucm_cts.harness.results.known_failures import KnownFailure, known_today
+from ucm_cts.harness.results.statement import Statement, default_statement
+from ucm_cts.harness.results.tally import ended_early
+from ucm_cts.harness.results.values import ToolChainReport
 from ucm_cts.harness.statement.files import check_subject, read_statement
-from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign, ToolChainPlan
+from ucm_cts.harness.toolchains.campaign import TASKS, Examination, ToolChainCampaign, ToolChainPlan
 from ucm_cts.harness.toolchains.commands.description import ToolChain, read_toolchain
-from ucm_cts.harness.toolchains.commands.processing import CommandLine
+from ucm_cts.harness.toolchains.commands.processing import CommandLine, Processor
 from ucm_cts.harness.toolchains.examinations import examination_for
+from ucm_cts.harness.toolchains.recording import Recorder, ToolChainRecord
 from ucm_cts.harness.toolchains.renaming import Renaming
+from ucm_cts.harness.toolchains.selecting import as_selected, named, testable
 
 
 @dataclass(frozen=True)
@@ -46,8 +49,43 @@ class ToolChainRun:
     failed_first: bool = False
 
 
+@dataclass(frozen=True)
+class ToolChainRan:
+    """A run that is over: its ``plan``, its ``report``, its ``record``, and the failures that were ``known``."""
+
+    plan: ToolChainPlan
+    report: ToolChainReport
+    record: Callable[[], ToolChainRecord]
+    known: Sequence[KnownFailure]
+
+
 def certify_toolchain(wanted: ToolChainRun) -> NoReturn:
     """Run it, write the report, and end. Raises ``WrongUse`` and ``DocumentError``."""
+    prepared = _prepared(wanted)
+    console = Output()
+    with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(wanted.out) as folder:
+        ran = _run(prepared, console, interrupts)
+        leave_with(console, ran.report, keep_report(ran.report, folder), ran.known, wanted.everything)
+
+
+def run_toolchain(wanted: ToolChainRun, console: Output, interrupts: Interrupts) -> ToolChainRan:
+    """Run it, and write no report; ``interrupts`` are held. Raises ``WrongUse`` and ``DocumentError``."""
+    return _run(_prepared(wanted), console, interrupts)
+
+
+@dataclass(frozen=True)
+class _Prepared:
+    """What a run needs: all that a user may have got wrong has been checked."""
+
+    wanted: ToolChainRun
+    toolchain: ToolChain
+    statement: Statement
+    known: Sequence[KnownFailure]
+    processor: Processor
+    examination: Examination
+
+
+def _prepared(wanted: ToolChainRun) -> _Prepared:
     path, profile, expression = wanted.path, wanted.profile, wanted.expression
     need("toolchain", "certifying a tool chain")
     if profile not in TOOLCHAIN_PROFILES:
@@ -61,36 +99,44 @@ def certify_toolchain(wanted: ToolChainRun) -> NoReturn:
     check_subject(statement, toolchain, profile)
     processor = CommandLine(toolchain)
     examination = examination_for(profile, statement, Renaming(wanted.seed, toolchain.dialect), expression, command)
-    ids = [r.id for r in load_requirements() if r.profile in PARTS[profile] and not r.untestable]
-    asked = {id_ for id_ in ids if any(word in id_.lower() for word in words_of(expression))}
+    ids = testable(profile)
     names = [name for name, _ in examination.models]
-    if expression and not asked and not any(word in name.lower() for word in words_of(expression) for name in names):
+    words = words_of(expression)
+    if expression and not named(ids, expression) and not any(word in name.lower() for word in words for name in names):
         raise nothing_selected(expression, [*ids, *names], "model")
     if not examination.models:
         raise nothing_selected(expression, ids, "model")
-    console = Output()
-    with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(wanted.out) as folder:
-        greet(console, name_of(toolchain), profile, wanted.seed)
-        plan = ToolChainPlan(
-            toolchain.product,
-            toolchain.version,
-            profile,
-            statement,
-            known,
-            source=str(path),
-            seed=wanted.seed,
-            first=failed_in(wanted.out, console).models if wanted.failed_first else (),
-        )
-        campaign = ToolChainCampaign(processor, examination, plan)
-        incomplete = _conduct(campaign, len(examination.models), console, interrupts)
-        if not campaign.is_judged:
-            campaign.judge()
-        for warning in campaign.warnings():
-            console.say(f"warning: {warning}")
-        report = ended_early(campaign.report(), incomplete)
-        if expression:
-            report = of_selection(report, expression, asked | campaign.asked_by(words_of(expression)))
-        leave_with(console, report, keep_report(report, folder), known, wanted.everything)
+    return _Prepared(wanted, toolchain, statement, known, processor, examination)
+
+
+def _run(prepared: _Prepared, console: Output, interrupts: Interrupts) -> ToolChainRan:
+    wanted, toolchain, examination = prepared.wanted, prepared.toolchain, prepared.examination
+    greet(console, name_of(toolchain), wanted.profile, wanted.seed)
+    plan = ToolChainPlan(
+        toolchain.product,
+        toolchain.version,
+        wanted.profile,
+        prepared.statement,
+        prepared.known,
+        source=str(wanted.path),
+        seed=wanted.seed,
+        first=failed_in(wanted.out, console).models if wanted.failed_first else (),
+    )
+    recorder = Recorder(prepared.processor)
+    campaign = ToolChainCampaign(recorder, examination, plan)
+    incomplete = _conduct(campaign, len(examination.models), console, interrupts)
+    if not campaign.is_judged:
+        campaign.judge()
+    for warning in campaign.warnings():
+        console.say(f"warning: {warning}")
+    report = ended_early(campaign.report(), incomplete)
+    report = as_selected(report, campaign, wanted.profile, wanted.expression)
+
+    def record() -> ToolChainRecord:
+        names = [name for name, _ in examination.models]
+        return recorder.record(toolchain, TASKS[wanted.profile], report, names, plan.jobs)
+
+    return ToolChainRan(plan, report, record, prepared.known)
 
 
 def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:

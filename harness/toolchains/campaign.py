@@ -197,9 +197,8 @@ class ToolChainCampaign:
         broken = {fact.requirement: fact for fact in reversed(self._facts) if fact.finding is not None}
 
         def is_shown_again(fact: Fact) -> bool:
-            again = {
-                name: self._processor.process(TASKS[self._plan.profile], name, texts[name]) for name in fact.models
-            }
+            task = TASKS[self._plan.profile]
+            again = {name: self._processor.process(task, name, texts[name], fact.requirement) for name in fact.models}
             shown = {name: self._examination.examine(name, response) for name, response in again.items()}
             facts = self._examination.judge(self._responses | again, self._shown | shown)
             return any(f.requirement == fact.requirement and f.finding and f.models == fact.models for f in facts)

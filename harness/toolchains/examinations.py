@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.harness.catalogue.requirements import in_the_making
@@ -17,15 +17,16 @@ from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.cpp import applicability
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout, can_be_run
-from ucm_cts.harness.toolchains.cpp.probes.check import CHECKS, GENERATED
+from ucm_cts.harness.toolchains.cpp.probes.check import CHECKS, GENERATED, HEADERS
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.generation import Generation, mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
 from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
 from ucm_cts.harness.toolchains.idl.declared_support import not_applicable
-from ucm_cts.harness.toolchains.idl.omniidl import opinion
+from ucm_cts.harness.toolchains.idl.omniidl import Opinion, opinion
 from ucm_cts.harness.toolchains.renaming import Renaming
 from ucm_cts.reference_models.mapping.cpp.expected import Standard
+from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 from ucm_cts.reference_models.mapping.idl.expectations import STANDS_FOR
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
@@ -47,11 +48,13 @@ def examination_for(
     expression: str = "",
     command: Command | None = None,
     models: Collection[str] | None = None,
+    untouched: str = "",
 ) -> Examination:
     """What ``profile`` asks, with models in ``renaming``, as far as it concerns ``expression`` and what the vendor states.
 
     ``command`` says of generated C++ which compiler takes it, and where its headers are. Code is generated from ``models`` only, if
-    they are named. Raises ``WrongUse``.
+    they are named. ``untouched`` is why no compiler may read what was generated, and nothing of it may run; empty if that may be.
+    Raises ``WrongUse``.
     """
     unfinished = in_the_making(profile)
     if unfinished:
@@ -61,7 +64,8 @@ def examination_for(
     if task == "check":
         return Acceptance(statement, renaming, expression)
     if task == "idl":
-        compare = functools.partial(_compare_idl, statement.readings)
+        second_opinion = functools.partial(_no_opinion, untouched) if untouched else opinion
+        compare = functools.partial(_compare_idl, statement.readings, second_opinion)
         return Generation(
             compare,
             ("R-12-01", "idl_generated"),
@@ -74,12 +78,14 @@ def examination_for(
         )
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
-    if not can_be_run(_compiler(how).command[0]):
+    if not untouched and not can_be_run(_compiler(how).command[0]):
         compiler = _compiler(how).command[0]
         raise WrongUse(
             f"no compiler '{compiler}' can be run; install it, or name another: compiler = [...] in [{task}]"
         )
     compare = functools.partial(_compare_cpp, standard, statement.readings, how)
+    if untouched:
+        compare = functools.partial(_compare_nothing, standard, statement.readings, untouched)
     not_asked = applicability.not_applicable(statement)
     refusable = _may_be_refused(statement, IMPOSSIBLE_IN_CPP)
     return Generation(compare, GENERATED, DECORATION_OF_CPP, renaming, expression, models, not_asked, refusable)
@@ -110,8 +116,25 @@ def _may_be_refused(statement: Statement, impossible: Mapping[str, tuple[str, st
     return {name: allowed_by for name, (reading, allowed_by) in impossible.items() if statement.meets(reading)}
 
 
-def _compare_idl(readings: Mapping[str, str], model: Model, files: Mapping[str, str]) -> Comparison:
-    return compare_idl(expected_idl(model), files, readings, opinion)
+def _compare_idl(
+    readings: Mapping[str, str],
+    second_opinion: Callable[[Mapping[str, str]], Opinion],
+    model: Model,
+    files: Mapping[str, str],
+) -> Comparison:
+    return compare_idl(expected_idl(model), files, readings, second_opinion)
+
+
+def _no_opinion(why: str, files: Mapping[str, str]) -> Opinion:
+    return Opinion("none", reason=why)
+
+
+def _compare_nothing(
+    standard: Standard, readings: Mapping[str, str], why: str, model: Model, files: Mapping[str, str]
+) -> Comparison:
+    expected = expected_cpp(model, standard, readings).expected
+    unjudged = dict.fromkeys((HEADERS[standard], *(e.requirement for e in expected)), why)
+    return Comparison({}, (), unjudged=unjudged)
 
 
 def _compare_cpp(

@@ -102,6 +102,14 @@ def read_toolchain(path: Path) -> ToolChain:
     _check_keys(path, document, lines)
     places = {"$": 1} | {f"$.{place}": line for place, line in lines.items()}
     described = convert(path, document, ToolChain, places)
+    check_description(path, described, lines)
+    folder = path.parent.resolve()
+    beside = {task: _beside(folder, described.command_for(task)) for task in ("cpp11", "cpp03")}
+    return msgspec.structs.replace(described, **beside, folder=str(folder), source=str(path))
+
+
+def check_description(path: Path, described: ToolChain, lines: dict[str, int]) -> None:
+    """Check what types do not say of ``described``, which was read from ``path``, with its keys in ``lines``. Raises ``DocumentError``."""
     _check_dialect(path, described.dialect, lines)
     for task in ("check", "idl", "cpp11", "cpp03"):
         _check(path, task, described.command_for(task), lines)
@@ -111,9 +119,6 @@ def read_toolchain(path: Path) -> ToolChain:
         raise DocumentError(path, lines.get("seconds"), f"seconds is greater than 0 and at most {MOST_SECONDS}")
     if not 0 < described.memory <= MOST_MEMORY:
         raise DocumentError(path, lines.get("memory"), f"memory is greater than 0 and at most {MOST_MEMORY} (MiB)")
-    folder = path.parent.resolve()
-    beside = {task: _beside(folder, described.command_for(task)) for task in ("cpp11", "cpp03")}
-    return msgspec.structs.replace(described, **beside, folder=str(folder), source=str(path))
 
 
 def _beside(folder: Path, command: Command | None) -> Command | None:

@@ -54,8 +54,11 @@ class Response:
 class Processor(Protocol):
     """A tool chain that can be called."""
 
-    def process(self, task: Task, name: str, text: str) -> Response:
-        """Do ``task`` with the model ``text``, which the suite calls ``name``. Never raises for what the tool does."""
+    def process(self, task: Task, name: str, text: str, again_for: str = "") -> Response:
+        """Do ``task`` with the model ``text``, which the suite calls ``name``. Never raises for what the tool does.
+
+        ``again_for`` is the requirement whose failure is to be confirmed, empty for the first look.
+        """
 
     def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         """The same for several models, each with its name."""
@@ -141,7 +144,7 @@ class CommandLine:
             responses.append(Response(processed, not lines, named_lines(output, command.diagnostic, text)))
         return responses
 
-    def process(self, task: Task, name: str, text: str) -> Response:
+    def process(self, task: Task, name: str, text: str, again_for: str = "") -> Response:
         try:
             return self._alone(task, name, text)
         except OSError as error:
@@ -159,13 +162,23 @@ class CommandLine:
             ended = run(filled, folder, self._toolchain)
             output = ended.output.replace(f"{folder}/", "")
             shown = tuple(_filled(word, MODEL_FILE, OUT_FOLDER) for word in _by_hand(command, words))
-            incident = ended.incident or _odd_status(ended.status, command) or _died(ended)
+            incident = ended.incident or oddity(ended.status, output, command)
             processed = Processed(name, task, text, shown, ended.status, output, incident)
-            if incident is not None:
-                return Response(processed, None)
-            accepted = ended.status == 0
-            lines = named_lines(output, command.diagnostic, text)
-            return Response(processed, accepted, lines, _files(out) if accepted else {})
+            return response_to(processed, command, _files(out) if ended.status == 0 else {})
+
+
+def response_to(processed: Processed, command: Command, files: Mapping[str, str]) -> Response:
+    """What ``processed`` comes to by the description ``command``; ``files`` were written."""
+    if processed.incident is not None:
+        return Response(processed, None)
+    accepted = processed.status == 0
+    lines = named_lines(processed.output, command.diagnostic, processed.model)
+    return Response(processed, accepted, lines, files if accepted else {})
+
+
+def oddity(status: int | None, output: str, command: Command) -> Incident | None:
+    """Why a command that ended with ``status`` gave no answer; None if it did."""
+    return _odd_status(status, command) or _died(status, output)
 
 
 def _by_hand(command: Command, words: Sequence[str]) -> tuple[str, ...]:
@@ -194,7 +207,7 @@ class InProcess:
     def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         return [self.process(task, name, text) for name, text in models]
 
-    def process(self, task: Task, name: str, text: str) -> Response:
+    def process(self, task: Task, name: str, text: str, again_for: str = "") -> Response:
         files: Mapping[str, str] = {}
         try:
             if task == "check":
@@ -250,7 +263,7 @@ _MENDS = {
 
 def _not_clear(ended: Ended, command: Command, named: bool) -> str:
     """Why a call with several models does not say which it refuses; empty if it does. ``named``: diagnostics name some."""
-    if ended.incident or _odd_status(ended.status, command) or _died(ended):
+    if ended.incident or oddity(ended.status, ended.output, command):
         return _NO_ANSWER
     if len(ended.output.encode()) >= _OUTPUT_OF_SEVERAL:
         return _TOO_LONG
@@ -288,8 +301,8 @@ _DEATHS = re.compile(
 """What run-time systems print when a program dies; its exit status may be one that refuses a model."""
 
 
-def _died(ended: Ended) -> Incident | None:
-    found = _DEATHS.search(ended.output) if ended.status else None
+def _died(status: int | None, output: str) -> Incident | None:
+    found = _DEATHS.search(output) if status else None
     return Incident("crash", f"it died: {found[0].strip()}") if found else None
 
 
