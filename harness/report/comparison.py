@@ -113,7 +113,11 @@ class Comparison:
 
 def read_report(path: Path) -> ReportEntry:
     """The ``report.json`` at ``path``. Raises ``DocumentError``, naming the line, if it is none or contradicts itself."""
-    text = read_text(path, LARGEST)
+    return decoded_report(path, read_text(path, LARGEST))
+
+
+def decoded_report(path: Path, text: str | bytes) -> ReportEntry:
+    """The report that ``text``, from the file at ``path`` or from an archive there, is. Raises as ``read_report`` does."""
     _check_version(path, text)
     try:
         report = msgspec.json.decode(text, type=ReportEntry)
@@ -132,7 +136,7 @@ class _Versioned(msgspec.Struct, frozen=True):
     suite_version: str = ""
 
 
-def _check_version(path: Path, text: str) -> None:
+def _check_version(path: Path, text: str | bytes) -> None:
     """Raise ``DocumentError`` for a report of another version of the schema, which may mean something else by the same names."""
     try:
         found = msgspec.json.decode(text, type=_Versioned)

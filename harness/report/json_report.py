@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, Final, Literal, Self
 
 import msgspec
 
@@ -16,7 +16,7 @@ from ucm_cts.harness.results.failures import file_name, incident_file, shortest_
 
 SCHEMA_FILE = "report.schema.json"
 
-SCHEMA_VERSION = 2
+SCHEMA_VERSION: Final = 2
 """Of ``report.json``. It changes with every field; readers refuse reports of other versions. Version 1 did not name itself."""
 
 EVENTS = 50
