@@ -15,9 +15,10 @@ import ucm_cts
 from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.cli.last_run import failed_in
+from ucm_cts.harness.cli.one_run import carry_out
 from ucm_cts.harness.cli.options import Budget, greet, leave_with, name_of, nothing_selected
 from ucm_cts.harness.cli.run_checkpoints import CHECKPOINTS, Checkpoints
-from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupts
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.driver import Driver, Limits
@@ -28,7 +29,6 @@ from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import asked_by, select
 from ucm_cts.harness.report.write import keep_report, report_folder
-from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import KnownFailure, known_today
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import ended_early, of_selection
@@ -210,28 +210,19 @@ class _Series:
         return problem or (f"interrupted when {left} runs were left" if self._interrupts.came and left else "")
 
     def _check(self, campaign: Campaign, which: str, done: int) -> None:
-        with progress_of(self._console) as progress:
-            task = progress.add_task(f"{which}checking", total=len(self._plan.purposes), completed=done)
-            failing, kept = 0, time.monotonic()
-            for checked in campaign.check(self._plan.purposes):
-                failing += bool(checked.failures)
-                text = f"{which}{failing} failing, {one_line(checked.purpose.id, 50)}"
-                progress.update(task, advance=1, description=text)
-                if time.monotonic() - kept > KEPT_EVERY:
-                    with self._interrupts.held():
-                        self._checkpoints.keep_part(len(self.reports) + 1, campaign.state, self._console)
-                    kept = time.monotonic()
-                if self._interrupts.came:
-                    raise KeyboardInterrupt
-            if self._explore.amount:
-                progress.update(task, description=f"{which}drawing scenarios")
-                failing += self._draw(campaign)
-            progress.update(task, description=f"{which}confirming failures")
-            campaign.confirm()
-            if failing:
-                progress.update(task, description=f"{which}shortening scenarios of failures")
-                for _ in campaign.shorten():
-                    pass
+        kept = time.monotonic()
+
+        def between() -> None:
+            nonlocal kept
+            if time.monotonic() - kept > KEPT_EVERY:
+                with self._interrupts.held():
+                    self._checkpoints.keep_part(len(self.reports) + 1, campaign.state, self._console)
+                kept = time.monotonic()
+            if self._interrupts.came:
+                raise KeyboardInterrupt
+
+        draw = (lambda: self._draw(campaign)) if self._explore.amount else None
+        carry_out(campaign, self._plan.purposes, draw, self._console, which, done, between)
 
     def _draw(self, campaign: Campaign) -> int:
         """Try failures that drawn scenarios showed before, then draw scenarios. Returns how many causes of failure they show.

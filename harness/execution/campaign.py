@@ -15,7 +15,7 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_require
 from ucm_cts.harness.execution import leftovers
 from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, timed_requirements
-from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.driving import Answer, Driving
 from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.provocations.coverage import provocations
@@ -54,7 +54,7 @@ class Campaign:
 
     def __init__(
         self,
-        driver: Driver,
+        driver: Driving,
         profile: str,
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
@@ -69,6 +69,7 @@ class Campaign:
         self._tally = Tally()
         check_statement(self.statement, profile, self._requirements, self._tally)
         self._confirmation = Confirmation(driver, self._monitor, driver.gaps)
+        self._shortening = Shortening(driver, self._monitor, self._confirmation, self._tally)
         self._payloads = Payloads(driver.seed)
         self._timed: dict[str, tuple[str, Scenario]] = {}
         self._took: dict[str, float] = {}
@@ -193,7 +194,7 @@ class Campaign:
         A failure that ``SEEN_OFTEN`` runs showed is not run again: one more run cannot refute them.
         """
         began = time.monotonic()
-        last = began + SECONDS_FOR_CONFIRMATION
+        allowance = self._driver.allow(SECONDS_FOR_CONFIRMATION)
         confirmed: set[str] = set()
         for failure in list(self._tally.failures.values()):
             execution, requirement = failure.execution, failure.finding.requirement
@@ -203,7 +204,7 @@ class Campaign:
                 continue
             if failure.occurrences >= SEEN_OFTEN or (failure.occurrences > 1 and requirement in confirmed):
                 continue
-            if time.monotonic() > last:
+            if allowance.is_used_up():
                 self._tally.measures[NOT_CONFIRMED] += 1
                 continue
             unconfirmed = self._confirmation.of_failure(failure.finding, execution)
@@ -214,7 +215,7 @@ class Campaign:
         failed = {requirement for requirement, _, _ in self._tally.failures}
         kept = [case for requirement, case in self._timed.items() if passes and requirement not in failed]
         for name, scenario in {name: scenario for name, scenario in kept}.items():
-            if time.monotonic() > last:
+            if allowance.is_used_up():
                 break
             answer, findings, not_confirmed = self._confirmation.of_pass(name, scenario)
             if findings or not_confirmed:
@@ -231,7 +232,11 @@ class Campaign:
 
     def shorten(self) -> Iterator[Cause]:
         """Search the shortest scenario of each failure; yields each cause when it is done."""
-        yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
+        yield from self._shortening.of_all()
+
+    def take_shorter(self, cause: Cause, answer: Answer) -> str:
+        """Show ``cause`` with ``answer``, which a search of an earlier run has found. Returns why that cannot be, empty if it can."""
+        return self._shortening.adopt(cause, answer)
 
     def count(self, measure: str, times: int) -> None:
         """Add ``times`` to a measure of the run's effort."""

@@ -15,8 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness.execution.clock_gaps import ClockGaps
-from ucm_cts.harness.execution.driver import Answer, Circumstances, Driver
+from ucm_cts.harness.execution.driving import Answer, Circumstances, Driving, Gaps
 from ucm_cts.harness.results.tally import Cause, cause_of
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding
@@ -65,7 +64,7 @@ class Unconfirmed:
 class Confirmation:
     """Confirms the findings of one run. ``gaps`` knows when the machine stood still."""
 
-    def __init__(self, driver: Driver, monitor: Monitor, gaps: ClockGaps) -> None:
+    def __init__(self, driver: Driving, monitor: Monitor, gaps: Gaps) -> None:
         self._driver = driver
         self._monitor = monitor
         self._gaps = gaps

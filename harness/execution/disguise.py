@@ -75,11 +75,16 @@ class Disguise:
     def reveal(self, value: T) -> T:
         """``value``, any message value or finding, in the script's own names and payloads."""
         if self._pattern is None:
-            names = sorted((name for name in self._plain if not name.lstrip("-").isdigit()), key=len, reverse=True)
-            self._pattern = re.compile("|".join((_NUMBER, *_by_first_letter(names))))
-        text = msgspec.json.encode(value).decode()
-        revealed = self._pattern.sub(self._revealed, text)
+            self._pattern = _pattern_of(self._plain)
+        revealed = self._pattern.sub(self._revealed, _text(value))
         return msgspec.json.decode(revealed.encode(), type=type(value))
+
+    def words_in(self, value: object) -> dict[str, str]:
+        """The random names and payloads in ``value``, each with what it stands for: all that ``revealed_by`` needs to reveal it."""
+        self.reveal(())  # makes the pattern
+        assert self._pattern is not None
+        found = {match.group(): self._revealed(match) for match in self._pattern.finditer(_text(value))}
+        return {random_: plain for random_, plain in found.items() if random_ != plain}
 
     def _revealed(self, found: re.Match[str]) -> str:
         text = found.group()
@@ -201,6 +206,22 @@ class Disguise:
                 case Names("attribute"):
                     changed[field] = self._attributes(plain)
         return msgspec.structs.replace(value, **changed)
+
+
+def revealed_by(words: Mapping[str, str], value: T) -> T:
+    """``value`` with each of ``words`` replaced. Raises ``msgspec.MsgspecError`` if it is then no value of its type."""
+    revealed = _pattern_of(words).sub(lambda match: words.get(match.group(), match.group()), _text(value))
+    return msgspec.json.decode(revealed.encode(), type=type(value))
+
+
+def _text(value: object) -> str:
+    return msgspec.json.encode(value).decode()
+
+
+def _pattern_of(words: Iterable[str]) -> re.Pattern[str]:
+    """Matches numbers that may be payloads, and the names among ``words``."""
+    names = sorted((name for name in words if not name.lstrip("-").isdigit()), key=len, reverse=True)
+    return re.compile("|".join((_NUMBER, *_by_first_letter(names))))
 
 
 def _by_first_letter(names: Iterable[str]) -> Iterator[str]:

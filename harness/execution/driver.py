@@ -6,18 +6,18 @@ import itertools
 import time
 from collections import deque
 from collections.abc import Generator, Iterable, Iterator
-from contextlib import closing
+from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass, replace
-from typing import Self, TypeVar
+from typing import Self
 
 import msgspec
 
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
-from ucm_cts.adapters.contract.scenario import Scenario, Stress
+from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.harness.execution.calls_apart import with_calls_apart
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
-from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.driving import Allowance, Answer, Circumstances, Disguising, Seconds, lasting
 from ucm_cts.harness.execution.host_clock import HostClock
 from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.host_watch import Usage
@@ -25,17 +25,16 @@ from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
 from ucm_cts.harness.hosting.locate import Endpoint, namesakes
 from ucm_cts.harness.results.incidents import IncidentTime
+from ucm_cts.harness.results.tally import Cause
 from ucm_cts.harness.results.unanswered_calls import is_left_open
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind, Isolation
 
 __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 
-T = TypeVar("T")
-
-_EMPTY = Scenario({}, ())
-
 MOST_UNTRIED = 32
 """How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
+
+_BETWEEN_COUNTS = 0.02
 
 _SHOWN = 5
 """How many kinds of processes a warning names."""
@@ -43,53 +42,18 @@ _SHOWN = 5
 _HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbage", "protocol"}
 
 
-@dataclass(frozen=True)
-class Answer:
-    """One scenario and its result.
-
-    ``name``: the name of the scenario.
-    ``scenario``: as it is written.
-    ``disguised``: as the framework got it, with random names.
-    ``trace``: in the names of ``disguised``; after an incident the known part.
-    ``incident``: what went wrong with the host, if anything.
-    ``printed``: what the host printed meanwhile.
-    ``is_whole``: the trace is complete, although threads never came back.
-    """
-
-    name: str
-    scenario: Scenario
-    disguised: Scenario
-    trace: Trace
-    incident: Incident | None = None
-    is_whole: bool = False
-    printed: str = ""
-
-
-@dataclass(frozen=True)
-class Circumstances:
-    """How a scenario is run again.
-
-    ``patience``: the factor by which its patience is multiplied.
-    ``one_core``: all threads of the host run on one core.
-    """
-
-    patience: float = 1
-    one_core: bool = False
-
-
-class Driver:
+class Driver(Disguising):
     """Runs scenarios on the implementation behind ``endpoint``; names and payloads are drawn from ``seed``.
 
     Use it in a ``with`` statement: from then until its end it has hosts, and ``gaps`` notes when the machine stood still.
     """
 
     def __init__(self, endpoint: Endpoint, seed: int, limits: Limits | None = None) -> None:
+        super().__init__(seed)
         self._hosts = Hosts(endpoint, limits)
         self._endpoint = endpoint
         self.adapter = endpoint.text
-        self.seed = seed
         self.gaps = ClockGaps()
-        self._disguise: Disguise | None = None
         self._numbers = itertools.count()
         self._incident_time = IncidentTime(self._hosts.limits.incident_seconds)
         self._is_near = endpoint.kind in ("python", "executable")
@@ -133,13 +97,6 @@ class Driver:
         )
         said = (shadowed, bool(others)), (behind, bool(left)), (waiting, bool(self._left_waiting))
         return tuple(text for text, is_so in said if is_so)
-
-    @property
-    def disguise(self) -> Disguise:
-        """The disguise of this run."""
-        if self._disguise is None:
-            self._disguise = Disguise(self.seed, self.identity.port_element_name)
-        return self._disguise
 
     def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:
         """The answers to ``cases`` (name, scenario), in order; many are on their way at a time.
@@ -213,12 +170,12 @@ class Driver:
 
         The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
         """
-        scaled = _lasting(scenario, circumstances.patience)
+        scaled = lasting(scenario, circumstances.patience)
         disguised = self.disguise.scenario(scaled)
         reply = self._hosts.run_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
-        if not isinstance(reply, Traced) or contradiction(disguised, reply.events, bool(reply.stuck)) is not None:
+        if not isinstance(reply, Traced) or contradiction(disguised, reply.events, reply.stuck) is not None:
             return Answer(name, scaled, disguised, ())
-        return Answer(name, scaled, disguised, reply.events)
+        return Answer(name, scaled, disguised, reply.events, stuck=reply.stuck)
 
     def many_times(self, name: str, scenario: Scenario) -> Generator[tuple[Answer, Usage | None], None, None]:
         """``scenario`` again and again on one fresh host, each time with what the host's process holds afterwards.
@@ -236,27 +193,33 @@ class Driver:
         finally:
             self._hosts.discard()
 
-    @property
-    def usage(self) -> Usage | None:
-        """What the process of the current host holds now."""
-        return self._hosts.usage
+    def usages(self, seconds: float) -> Iterator[Usage]:
+        """What the process of the current host holds, again and again within so many ``seconds``."""
+        until = time.monotonic() + seconds
+        while time.monotonic() < until:
+            time.sleep(_BETWEEN_COUNTS)
+            usage = self._hosts.usage
+            if usage is not None:
+                yield usage
 
-    def reveal(self, value: T) -> T:
-        """``value`` in the script's own names."""
-        return self.disguise.reveal(value)
+    def allow(self, seconds: float) -> Allowance:
+        """So many ``seconds`` from now."""
+        return Seconds(seconds)
 
-    def revealed(self, answer: Answer) -> Execution:
-        """The answer as an execution that people can read."""
-        revealed = self.reveal(Execution("", _EMPTY, answer.trace, answer.incident))
-        return msgspec.structs.replace(revealed, name=answer.name, scenario=answer.scenario)
+    def tries(self) -> AbstractContextManager[None]:
+        """Within it, scenarios are tried whose answers decide nothing, as when a failure is shortened."""
+        return nullcontext()
+
+    def keep(self, cause: Cause, answer: Answer) -> None:
+        """The ``answer`` of a try with which the report shows the failure ``cause``. A recorder notes it."""
 
     def _examine(self, case: _Case, reply: HostAnswer, insist: bool) -> Answer:
         """What the host's ``reply`` says of ``case``; perhaps it is run again, as it is or with its calls apart."""
         run, answer = case.run, Answer(case.name, case.scenario, case.run.scenario, (), printed=reply.printed)
         if isinstance(reply.reply, Traced):
-            answer = replace(answer, trace=reply.reply.events)
+            answer = replace(answer, trace=reply.reply.events, stuck=reply.reply.stuck)
             stuck = set(reply.reply.stuck)
-            problem = contradiction(run.scenario, answer.trace, bool(stuck)) or self._out_of_time(reply)
+            problem = contradiction(run.scenario, answer.trace, stuck) or self._out_of_time(reply)
             if problem is not None:
                 return replace(answer, incident=Incident("contradiction", problem))
             if stuck <= set((case.plain or case.scenario).may_stay):
@@ -319,17 +282,6 @@ class Driver:
 def _hangs_openly(scenario: Scenario, answer: HostAnswer, happened: Trace) -> bool:
     hangs = isinstance(answer.reply, Incident) and answer.reply.kind == "hang"
     return hangs and is_left_open(Execution("", scenario, happened))
-
-
-def _lasting(scenario: Scenario, times: float) -> Scenario:
-    """``scenario`` with its patience, and the duration of its ``Stress`` steps, multiplied by ``times``."""
-    steps = tuple(
-        msgspec.structs.replace(step, milliseconds=round(step.milliseconds * times))
-        if isinstance(step, Stress)
-        else step
-        for step in scenario.steps
-    )
-    return msgspec.structs.replace(scenario, steps=steps, patience=round(scenario.patience * times))
 
 
 @dataclass(frozen=True)

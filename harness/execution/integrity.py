@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
@@ -20,18 +20,18 @@ _LONGEST_PATIENCE = 24 * 60 * 60 * 1000
 _NANOSECONDS = 1_000_000
 
 
-def contradiction(scenario: Scenario, trace: Iterable[t.Event], stuck: bool = False) -> str | None:
+def contradiction(scenario: Scenario, trace: Iterable[t.Event], stuck: Collection[str] = ()) -> str | None:
     """Why ``trace`` cannot be what happened when ``scenario`` ran; None if it can.
 
-    ``stuck`` traces may leave steps open; the trace is read once, event by event. Checks order, nesting, threads, gates, completeness, and that bodies kept to
-    their plans.
+    The ``stuck`` workers may leave steps open; the trace is read once, event by event. Checks order, nesting, threads, gates,
+    completeness, and that bodies kept to their plans.
     """
     check = _Check(scenario)
     for event in trace:
         problem = check.take(event)
         if problem:
             return problem
-    return None if stuck else check.end()
+    return check.end(stuck)
 
 
 def believable(scenario: Scenario, events: Sequence[t.Event]) -> tuple[t.Event, ...]:
@@ -76,9 +76,14 @@ class _Check(BodyChecks):
         thread.clock = event.t
         return f"event {event.n}: {problem}" if problem else None
 
-    def end(self) -> str | None:
-        """The contradiction if the trace ends here; None if there is none."""
+    def end(self, stuck: Collection[str]) -> str | None:
+        """The contradiction if the trace ends here, and these workers are stuck; None if there is none."""
+        unknown = set(stuck) - {step.thread for step in self.scenario.steps}
+        if unknown:
+            return f"'{min(unknown)}' is stuck, and there is no such worker"
         for number, step in enumerate(self.scenario.steps):
+            if step.thread in stuck:
+                continue
             ended = isinstance(step, s.Join) or (self.done.get(number) if step.ends_with else not self.why_open(number))
             if not ended:
                 return f"step {number} ({s.operation(step)}) is missing or not ended"

@@ -5,13 +5,13 @@ One runtime proves nothing: a framework may keep a pool of threads for the next 
 
 from __future__ import annotations
 
-import time
+import itertools
 from contextlib import closing
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Return
-from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.driving import Answer, Driving
 from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.reference_models.findings import Finding
 
@@ -29,14 +29,12 @@ _SERIES = (8, 8, 24)
 _STILL_ENDING = 4
 """How many threads, or files, fewer the first series may leave: those of the last warm-up may be ending when it is counted."""
 
-_BETWEEN_COUNTS = 0.02
-
 
 class NotCounted(Exception):
     """What the host's process holds cannot be counted."""
 
 
-def examine(driver: Driver, name: str, scenario: Scenario, patience: float) -> tuple[Answer, Finding | None] | None:
+def examine(driver: Driving, name: str, scenario: Scenario, patience: float) -> tuple[Answer, Finding | None] | None:
     """The last run of ``scenario`` and the finding, if destroy leaves something behind; None if a run did not end.
 
     What is left may go within ``patience`` seconds. Raises ``NotCounted``.
@@ -55,10 +53,12 @@ def examine(driver: Driver, name: str, scenario: Scenario, patience: float) -> t
                 return None
             if before is None or after is None:
                 raise NotCounted
-            until = time.monotonic() + patience
-            while (leaking_now := leaking & _grown(before, after, series - spared)) and time.monotonic() < until:
-                time.sleep(_BETWEEN_COUNTS)
-                after = driver.usage or after
+            leaking_now = leaking
+            for usage in itertools.chain((after,), driver.usages(patience)):
+                after = usage
+                leaking_now = leaking & _grown(before, after, series - spared)
+                if not leaking_now:
+                    break
             leaking, before = leaking_now, after
             if not leaking:
                 return answer, None

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.execution import shrink, smaller_values
 from ucm_cts.harness.execution.confirmation import Confirmation
-from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.driving import Answer, Driving
 from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.tally import Cause, Tally, cause_of
@@ -35,10 +36,24 @@ SECONDS_FOR_SMALLER_VALUES = 5
 """How long the search for a smaller value with the same failure takes."""
 
 
+@dataclass(frozen=True)
+class _Shown:
+    """The candidate with this ``index`` shows the failure."""
+
+    index: int
+    finding: Finding
+    execution: Execution
+    answer: Answer
+
+
+def _name_of_shorter(execution: Execution) -> str:
+    return f"{execution.name.removesuffix(_SHORTENED)}{_SHORTENED}"
+
+
 class Shortening:
     """Shortens the failures of ``tally`` and replaces them there."""
 
-    def __init__(self, driver: Driver, monitor: Monitor, confirmation: Confirmation, tally: Tally) -> None:
+    def __init__(self, driver: Driving, monitor: Monitor, confirmation: Confirmation, tally: Tally) -> None:
         self._driver = driver
         self._monitor = monitor
         self._confirmation = confirmation
@@ -53,41 +68,66 @@ class Shortening:
                 continue
             incident = failure.execution.incident
             ends = min(time.monotonic() + SECONDS_FOR_SHORTER, last)
+            shortest: list[_Shown] = []
 
-            def first_failing(candidates: Sequence[Scenario], cause: Cause = cause, ends: float = ends) -> int | None:
+            def first_failing(
+                candidates: Sequence[Scenario],
+                cause: Cause = cause,
+                ends: float = ends,
+                shortest: list[_Shown] = shortest,
+            ) -> int | None:
                 shown = self._show(cause, candidates, until) if time.monotonic() < ends else None
                 if shown is None:
                     return None
-                self._tally.replace(cause, *shown[1:])
-                return shown[0]
+                shortest[:] = [shown]
+                return shown.index
 
-            if incident is None:
-                soon = min(time.monotonic() + SECONDS_FOR_SMALLER_VALUES, last)
-                smaller_values.smallest(failure.finding, failure.execution, first_failing, self._driver.seed, soon)
-            smaller = self._tally.failures[cause].execution
-            if smaller is not None and (incident is None or incident.kind in _QUICK):
-                shrink.shortest(smaller.scenario, first_failing)
+            try:
+                with self._driver.tries():
+                    if incident is None:
+                        soon = min(time.monotonic() + SECONDS_FOR_SMALLER_VALUES, last)
+                        seed = self._driver.seed
+                        smaller_values.smallest(failure.finding, failure.execution, first_failing, seed, soon)
+                    if incident is None or incident.kind in _QUICK:
+                        smaller = shortest[0].execution if shortest else failure.execution
+                        shrink.shortest(smaller.scenario, first_failing)
+            finally:
+                for shown in shortest:
+                    self._tally.replace(cause, shown.finding, shown.execution)
+                    self._driver.keep(cause, shown.answer)
             yield cause
 
-    def _show(
-        self, cause: Cause, candidates: Sequence[Scenario], until: float
-    ) -> tuple[int, Finding, Execution] | None:
+    def adopt(self, cause: Cause, answer: Answer) -> str:
+        """Replace the execution of ``cause`` by ``answer``, which an earlier search has found. Returns why it cannot; empty if it can."""
+        failure = self._tally.failures.get(cause)
+        if failure is None or failure.execution is None or failure.unstable or failure.finding.rule in HOST_CHECKS:
+            return "it is no failure of this run that is shortened"
+        if answer.name != _name_of_shorter(failure.execution):
+            return f"it is not named '{_name_of_shorter(failure.execution)}'"
+        execution = self._driver.revealed(answer)
+        shown = next((one for one in self._findings(answer, execution) if cause_of(one) == cause), None)
+        if shown is None:
+            return "it does not show that failure"
+        self._tally.replace(cause, shown, execution)
+        return ""
+
+    def _show(self, cause: Cause, candidates: Sequence[Scenario], until: float) -> _Shown | None:
         """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step.
 
         Those that may end the host are run one by one, no more than needed, and none after ``until``.
         """
-        first: tuple[int, Finding, Execution] | None = None
+        first: _Shown | None = None
         known = self._tally.failures[cause].execution
-        name = f"{known.name.removesuffix(_SHORTENED) if known is not None else cause[0]}{_SHORTENED}"
-        cases = [(name, c) for c in candidates]
-        alone = known is not None and known.incident is not None
+        assert known is not None
+        cases = [(_name_of_shorter(known), c) for c in candidates]
+        alone = known.incident is not None
         answers = self._one_by_one(cases, until) if alone else self._driver.run(cases)
         for index, answer in enumerate(answers):
             if first is None:
                 execution = self._driver.revealed(answer)
                 shown = [finding for finding in self._findings(answer, execution) if cause_of(finding) == cause]
                 if shown:
-                    first = index, shown[0], execution
+                    first = _Shown(index, shown[0], execution, answer)
             if first is not None and alone:
                 break
         return first

@@ -25,6 +25,18 @@ def exploration_in(out: Path | None, campaign: Campaign, seed: int) -> Explorati
     return Exploration(campaign, seed, memory)
 
 
+def draw_scenarios(campaign: Campaign, seed: int, most: int) -> int:
+    """Draw ``most`` scenarios, or fewer if nothing more can be tried, and count them. Returns how many causes of failure they show."""
+    failures, far = 0, 0
+    if most:
+        for progress in exploration_in(None, campaign, seed).explore():
+            failures, far = progress.failures, progress.scenarios
+            if far >= most:
+                break
+        campaign.count(DRAWN_SCENARIOS, far)
+    return failures
+
+
 def remember_in(out: Path, report: FrameworkReport) -> str:
     """Keep in ``out`` the failures that drawn scenarios showed: the next run into the same folder tries them again. Returns what prevents
     that, empty if nothing does.

@@ -40,7 +40,7 @@ def play(
     asked = scenario(components, steps, patience)
     traced = answer(asked, adapter)
     assert isinstance(traced, Traced), traced
-    assert contradiction(asked, traced.events, bool(traced.stuck)) is None
+    assert contradiction(asked, traced.events, traced.stuck) is None
     return [line_of(event) for event in traced.events] + [f"stuck {name}" for name in traced.stuck]
 
 

@@ -179,7 +179,7 @@ def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes, is
     if is_wrong and not isinstance(traced, Traced):  # an incident, in a run
         return Judged((), {}, frozenset())
     assert isinstance(traced, Traced), (name, traced)
-    problem = contradiction(scenario, traced.events, bool(traced.stuck))
+    problem = contradiction(scenario, traced.events, traced.stuck)
     if problem is not None and is_wrong:  # likewise
         return Judged((), {}, frozenset())
     assert problem is None, (name, problem)

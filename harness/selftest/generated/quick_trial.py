@@ -165,7 +165,7 @@ class QuickTrials:
         reply = from_host_decoder().decode(answer)
         if not isinstance(reply, Traced) or not one.may_stay.issuperset(reply.stuck):
             return None
-        if contradiction(one.scenario, reply.events, bool(reply.stuck)) is not None:
+        if contradiction(one.scenario, reply.events, reply.stuck) is not None:
             return None
         stalled = self._clock_gaps is None or self._clock_gaps.longest(reply.events)
         found = self._monitor.judge(one.scenario, reply.events).findings

@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.scenario import Hook, Scenario
 from ucm_cts.adapters.contract.trace import Call, Enter, Event, Exit, Held, Opened, Reference, Return, Skip, Timeout
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
-from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.execution.integrity import believable, contradiction
 
 CALL = {"do": "call", "port": "out", "value": 5}
 RICH = msgspec.convert(
@@ -230,10 +230,17 @@ def test_numbers_without_gap_and_clocks_that_go_on(n: int, t: int, problem: str)
     assert problem in (contradiction(RICH, events) or "")
 
 
-def test_only_a_stuck_trace_may_break_off() -> None:
+def test_a_trace_must_not_break_off() -> None:
     for length in range(len(TRUTH)):
-        assert contradiction(RICH, TRUTH[:length], stuck=True) is None
-        assert (contradiction(RICH, TRUTH[:length]) is None) == (length == len(TRUTH))
+        assert believable(RICH, TRUTH[:length]) == TRUTH[:length]
+        assert contradiction(RICH, TRUTH[:length]) is not None
+
+
+def test_only_the_steps_of_stuck_workers_may_stay_open() -> None:
+    workers = sorted({step.thread for step in RICH.steps if step.thread})
+    assert contradiction(RICH, TRUTH, workers) is None
+    assert "no such worker" in str(contradiction(RICH, TRUTH, ["nobody"]))
+    assert contradiction(RICH, TRUTH[:-1], workers) is not None  # the last step is the scenario's own
 
 
 WAITING = msgspec.convert(

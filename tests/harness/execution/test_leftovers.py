@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterator
 from typing import cast
 
 import msgspec
@@ -48,9 +48,8 @@ class _StillEnding:
             self.runtimes += 1
             yield Answer(name, scenario, scenario, ()), Usage(1 + self.runtimes + (self.runtimes == 2), 3)
 
-    @property
-    def usage(self) -> Usage:
-        return Usage(1 + self.runtimes, 3)
+    def usages(self, _seconds: float) -> Iterator[Usage]:
+        yield Usage(1 + self.runtimes, 3)
 
 
 def test_a_thread_that_still_ends_after_the_warm_up_hides_no_leak() -> None:

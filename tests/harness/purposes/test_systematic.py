@@ -266,7 +266,7 @@ def failing(adapter: type[Adapter], readings: dict[str, str]) -> set[str]:
             scenario = disguise.scenario(plain)
             answer = from_host_decoder().decode(engine.answer(encode(Run(0, scenario))))
             assert isinstance(answer, Traced)
-            assert contradiction(scenario, answer.events, bool(answer.stuck)) is None, name
+            assert contradiction(scenario, answer.events, answer.stuck) is None, name
             found |= {finding.requirement for finding in monitor.judge(scenario, answer.events).findings}
     return found
 
