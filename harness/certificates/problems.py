@@ -14,3 +14,16 @@ class Problem(Value, frozen=True):
 
     check: str
     detail: str
+
+
+class Unreadable(Exception):
+    """Something of a certificate cannot be read, so that nothing that rests on it can be checked."""
+
+    def __init__(self, *problems: Problem) -> None:
+        super().__init__("; ".join(problem.detail for problem in problems))
+        self.problems = problems
+
+
+def unreadable(check: str, detail: str) -> Unreadable:
+    """The error with one problem."""
+    return Unreadable(Problem(check, detail))

@@ -45,6 +45,14 @@ class Uncovered(Value, frozen=True):
     undeclared: tuple[str, ...] = ()
 
 
+class Change(Value, frozen=True):
+    """A requirement that the rules of another suite judge otherwise than the certificate says; ``new`` is empty if it is gone."""
+
+    requirement: str
+    old: str
+    new: str
+
+
 class Verified(Value, frozen=True):
     """A certificate after verification. It stands if there are no ``problems``.
 
@@ -56,6 +64,9 @@ class Verified(Value, frozen=True):
     ``isolation``: how the product was kept apart from the harness, as the signer says.
     ``report``: the report, derived again from the record; None if it could not be derived.
     ``subjects``: what took part in the run.
+    ``changes``: what the rules of that suite judge otherwise than the certificate says.
+    ``challenges``: how many challenges the auditor had given for this product by then; 0 without a challenge.
+    ``remarks``: what a reader should know although the certificate stands, a sentence each.
     ``word``: what rests on the signer's word and no record can show, a sentence each.
     """
 
@@ -76,6 +87,9 @@ class Verified(Value, frozen=True):
     subjects: tuple[Subject, ...] = ()
     word: tuple[str, ...] = ()
     judged_by: str = ""
+    changes: tuple[Change, ...] = ()
+    challenges: int = 0
+    remarks: tuple[str, ...] = ()
 
     @property
     def stands(self) -> bool:

@@ -17,6 +17,7 @@ from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.profiles import PROFILES, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.cli import options
+from ucm_cts.harness.cli.certificate_commands import CERTIFICATE_COMMANDS
 from ucm_cts.harness.cli.compare_command import compare
 from ucm_cts.harness.cli.explanation import explanation, overview
 from ucm_cts.harness.cli.explore_command import explore
@@ -268,6 +269,8 @@ cli.add_command(selftest)
 cli.add_command(explore)
 cli.add_command(compare)
 cli.add_command(results)
+for certificate_command in CERTIFICATE_COMMANDS:
+    cli.add_command(certificate_command)
 
 
 def _check_current_folder() -> None:

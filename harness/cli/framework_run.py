@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, Protocol
 
 import msgspec
 
@@ -66,8 +66,27 @@ class FrameworkRun:
     is_seeded: bool
 
 
-def certify_framework(wanted: FrameworkRun) -> NoReturn:
-    """Run it, write the report, and end. Raises ``WrongUse``, ``DocumentError`` and ``HostUnavailable``."""
+class Keeper(Protocol):
+    """Makes something of a run beside its report."""
+
+    def driver(self, endpoint: Endpoint, seed: int, limits: Limits) -> Driver:
+        """The driver of the run."""
+
+    def begin(self, driver: Driver, statement: Statement, known: tuple[KnownFailure, ...]) -> None:
+        """The first host is there, and nothing was run yet. Raises ``WrongUse``."""
+
+    def measured(self, driver: Driver) -> None:
+        """Everything was run, and the hosts are still there."""
+
+    def finish(self, report: FrameworkReport, wanted: FrameworkRun, known: tuple[KnownFailure, ...]) -> str:
+        """The report is written. Returns a line about what was made of the run. Raises ``WrongUse``."""
+
+
+def certify_framework(wanted: FrameworkRun, keeper: Keeper | None = None) -> NoReturn:
+    """Run it, write the report, and end. Raises ``WrongUse``, ``DocumentError`` and ``HostUnavailable``.
+
+    With a ``keeper`` scenarios that failed in earlier runs are not tried again: what is run follows from the arguments.
+    """
     console = Output()
     endpoint = locate(wanted.adapter, wanted.in_process)
     known = known_today(wanted.known_failures)
@@ -85,7 +104,7 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
         if wanted.failed_first:
             failed = failed_in(wanted.out, console).requirements
             purposes = tuple(sorted(purposes, key=lambda purpose: not failed.intersection(purpose.requirements)))
-        plan = _Plan(wanted, endpoint, statement, known, purposes)
+        plan = _Plan(wanted, endpoint, statement, known, purposes, keeper)
         series = _Series(plan, Checkpoints(folder, _measured(plan)), console, interrupts)
         incomplete = series.run()
         report = ended_early(series.joined(), incomplete)
@@ -95,6 +114,8 @@ def certify_framework(wanted: FrameworkRun) -> NoReturn:
         problem = remember_in(wanted.out, report)
         if problem:
             console.say(problem)
+        if keeper is not None:
+            console.say(keeper.finish(report, wanted, known))
         leave_with(console, report, saved, known, wanted.everything)
 
 
@@ -105,8 +126,9 @@ class _Plan:
     wanted: FrameworkRun
     endpoint: Endpoint
     statement: Statement
-    known: Sequence[KnownFailure]
+    known: tuple[KnownFailure, ...]
     purposes: Sequence[TestPurpose]
+    keeper: Keeper | None
 
 
 class _Series:
@@ -162,7 +184,9 @@ class _Series:
         number, of = len(self.reports) + 1, self._wanted.repeat
         which = f"run {number} of {of}"
         try:
-            with Driver(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
+            keeper = self._plan.keeper
+            make = keeper.driver if keeper is not None else Driver
+            with make(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
                 with self._interrupts.permitted():
                     identity = driver.identity
                 known = [*self.reports, *([self._state.report] if self._state is not None else [])]
@@ -175,6 +199,8 @@ class _Series:
                     check_subject(self._plan.statement, identity, self._wanted.profile)
                     greet(self._console, name_of(identity), self._wanted.profile, self._seed)
                     self._is_greeted = True
+                    if keeper is not None:
+                        keeper.begin(driver, self._plan.statement, self._plan.known)
                 return self._measure(driver, f"{which}: " if of > 1 else "") if number <= of else ""
         except _Misfit:
             raise
@@ -203,6 +229,8 @@ class _Series:
             self._checkpoints.keep_part(len(self.reports) + 1, state, self._console)
         if problem and self.reports:  # half a run would make verdicts unstable
             return f"{problem} of run {len(self.reports) + 1}"
+        if self._plan.keeper is not None and not problem:
+            self._plan.keeper.measured(driver)
         self.reports.append(campaign.report(problem))
         if self._wanted.repeat > 1 and not problem:
             self._checkpoints.keep(len(self.reports), self.reports[-1], self._console)
@@ -229,7 +257,7 @@ class _Series:
 
         All runs of a series draw the same scenarios, as far as the framework does the same.
         """
-        exploration = exploration_in(self._wanted.out, campaign, self._seed)
+        exploration = exploration_in(self._wanted.out if self._plan.keeper is None else None, campaign, self._seed)
         known = exploration.replay()
         began, failures, far = time.monotonic(), 0, 0
         for progress in exploration.explore():

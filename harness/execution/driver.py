@@ -84,6 +84,10 @@ class Driver(Disguising):
         """Where the code behind the endpoint runs."""
         return self._hosts.isolation
 
+    def loaded_files(self) -> frozenset[str]:
+        """The files that a host has loaded as code by now: the product's libraries, as far as hosts are on this machine."""
+        return self._hosts.loaded_files()
+
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the vendor should know of the adapter, a sentence each."""

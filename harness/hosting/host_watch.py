@@ -15,6 +15,7 @@ import msgspec
 
 from ucm_cts.adapters.sdk.python.loading import Answer
 from ucm_cts.harness.hosting.host_channels import Channel
+from ucm_cts.harness.hosting.loaded_files import loaded_by
 from ucm_cts.harness.hosting.process_tree import resident
 from ucm_cts.harness.results.values import Incident, IncidentKind
 
@@ -98,6 +99,9 @@ class Host(Protocol):
 
     def usage(self) -> Usage | None:
         """What its process holds now; None if that cannot be counted."""
+
+    def loaded_files(self) -> frozenset[str]:
+        """The files that its processes have loaded as code; none of a host on another machine."""
 
     def close(self) -> None:
         """Let the host go."""
@@ -272,6 +276,9 @@ class WatchedHost:
             return None
         return Usage(threads, files)
 
+    def loaded_files(self) -> frozenset[str]:
+        return loaded_by(process.pid for process in self._channel.processes())
+
     def _fail_hanging(self, deadline: Deadline) -> NoReturn:
         self._drain()
         self._stderr.clear()
@@ -327,6 +334,9 @@ class InProcessHost:
     def usage(self) -> Usage | None:
         """None: the harness itself starts threads in this process."""
         return None
+
+    def loaded_files(self) -> frozenset[str]:
+        return loaded_by([os.getpid()])
 
     def close(self) -> None:
         self._questions.clear()

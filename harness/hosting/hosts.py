@@ -187,6 +187,13 @@ class Hosts:
         """What the process of the current host holds; None if there is no host, or none on this machine."""
         return self._host.usage() if self._host is not None else None
 
+    def loaded_files(self) -> frozenset[str]:
+        """The files that the current host has loaded as code; a host is started if there is none."""
+        if self._host is None:
+            with suppress(HostUnavailable):
+                self._open()
+        return self._host.loaded_files() if self._host is not None else frozenset()
+
     def close(self) -> None:
         """End the host and everything that was started for it."""
         self.discard()

@@ -1,0 +1,72 @@
+"""Judges the record of a certificate again: from the certificate to a plan of the run, and back to a report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import msgspec
+
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.certificates.delta import NOT_FROM_TRACES, judged_by_this_suite
+from ucm_cts.harness.certificates.problems import Problem, unreadable
+from ucm_cts.harness.certificates.reading import Contents
+from ucm_cts.harness.certificates.rejudging import RunPlan, judge_again
+from ucm_cts.harness.execution.recording import RecordError, decoded
+from ucm_cts.harness.report.json_report import ReportEntry, to_json
+from ucm_cts.harness.results.foreign import clean_report
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.tally import overall
+from ucm_cts.harness.results.values import Report
+
+
+@dataclass(frozen=True)
+class JudgedAgain:
+    """The report that a record shows; with ``problems``, of a part of the run only."""
+
+    report: ReportEntry
+    problems: tuple[Problem, ...] = ()
+
+
+def judged_again(contents: Contents, statement: Statement, is_delta: bool) -> JudgedAgain:
+    """What the record of ``contents`` shows. Raises ``Unreadable`` if it cannot be read."""
+    claims, environment = contents.claims, contents.environment
+    assert claims is not None
+    assert environment is not None
+    assert contents.record is not None
+    try:
+        record = decoded(contents.record)
+    except RecordError as error:
+        raise unreadable("record", str(error)) from None
+    if is_delta:
+        by_today = judged_by_this_suite(record, claims.profile, statement, contents.waivers or ())
+        return JudgedAgain(_with_old(entry_of(by_today), contents.report))
+    settings = environment.settings
+    plan = RunPlan(
+        profile=claims.profile,
+        seed=claims.seed,
+        statement=statement,
+        known=contents.waivers or (),
+        systematic=settings.systematic,
+        drawn=settings.drawn,
+        seconds=settings.timeout,
+        memory=settings.memory,
+        incident_seconds=settings.incident_time,
+    )
+    judged = judge_again(record, plan)
+    return JudgedAgain(entry_of(judged.report), tuple(Problem("record", problem) for problem in judged.problems))
+
+
+def _with_old(shown: ReportEntry, old: ReportEntry | None) -> ReportEntry:
+    """``shown`` with what the certificate itself says of requirements that traces do not decide."""
+    kept = {entry.id: entry for entry in old.requirements if entry.id in NOT_FROM_TRACES} if old is not None else {}
+    requirements = tuple(kept.get(entry.id, entry) for entry in shown.requirements)
+    return msgspec.structs.replace(
+        shown, requirements=requirements, verdict=overall(requirements, shown.incidents, shown.incomplete)
+    )
+
+
+def entry_of(report: Report) -> ReportEntry:
+    """``report.json`` of ``report``, as a value."""
+    catalogue = [r for r in load_requirements() if r.profile in PARTS[report.profile]]
+    return msgspec.json.decode(to_json(clean_report(report), catalogue), type=ReportEntry)

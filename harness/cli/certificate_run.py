@@ -1,0 +1,207 @@
+"""What ``certify`` and ``commit`` do around a run: collect what takes part in it, and write signed files."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from ucm_cts.harness.certificates.certifying import Run, certificate, models_of, statement_member, waivers_member
+from ucm_cts.harness.certificates.challenges import Answered, Commitment, answered, now, read_small
+from ucm_cts.harness.certificates.contents import Settings, descriptors, digest
+from ucm_cts.harness.certificates.judging import entry_of, judged_again
+from ucm_cts.harness.certificates.keys import Trust, TrustedKey, signer_of
+from ucm_cts.harness.certificates.problems import Unreadable
+from ucm_cts.harness.certificates.subjects import subjects_of
+from ucm_cts.harness.certificates.suite_build import suite_digest
+from ucm_cts.harness.certificates.verified import Subject
+from ucm_cts.harness.certificates.verifying import Verifier
+from ucm_cts.harness.cli.framework_run import FrameworkRun
+from ucm_cts.harness.cli.terminal import ends_like_interrupts
+from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.execution.offers import LIMITS
+from ucm_cts.harness.execution.recording import RecordingDriver, encoded
+from ucm_cts.harness.exploring.in_runs import DRAWN_SCENARIOS
+from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.known_failures import KnownFailure, known_today
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.values import FrameworkReport
+from ucm_cts.harness.statement.files import check_subject, stated_by
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a user wants of a certificate. ``witness``: an auditor signs."""
+
+    key: Path
+    artifacts: tuple[Path, ...]
+    out: Path
+    challenge: Path | None
+    witness: bool
+
+
+class CertificateKeeper:
+    """Makes a certificate of a run. Everything that can be wrong is checked before the run. Raises ``WrongUse``."""
+
+    def __init__(self, wanted: Wanted, profile: str, systematic: int) -> None:
+        self._record = b""
+        self._wanted = wanted
+        self._systematic = systematic
+        self._signer = signer_of(wanted.key)
+        check_new(wanted.out)
+        subjects_of("", wanted.artifacts, ()) if wanted.artifacts else None
+        self._challenge = b""
+        self._answer: Answered | None = None
+        self._subjects: tuple[Subject, ...] = ()
+        if wanted.challenge is not None:
+            self._challenge = read_small(wanted.challenge, "a challenge of 'ucm-cts challenge'")
+            try:
+                self._answer = answered(self._challenge)
+            except Unreadable as wrong:
+                raise WrongUse(f"'{wanted.challenge}': {wrong}") from None
+            if self._answer.commitment.profile != profile:
+                raise WrongUse(
+                    f"the challenge is for profile '{one_line(self._answer.commitment.profile, 40)}'; give it with --profile"
+                )
+
+    @property
+    def seed(self) -> int | None:
+        """The seed that the challenge gives; None without one."""
+        return self._answer.seed if self._answer is not None else None
+
+    def driver(self, endpoint: Endpoint, seed: int, limits: Limits) -> Driver:
+        """A driver that records the run."""
+        return RecordingDriver(endpoint, seed, limits)
+
+    def begin(self, driver: Driver, statement: Statement, known: tuple[KnownFailure, ...]) -> None:
+        """The run can begin: does it keep the commitment? Raises ``WrongUse``."""
+        models_of(statement)
+        subjects = subjects_of(driver.adapter_file, self._wanted.artifacts, ())
+        if self._answer is None:
+            return
+        made = self._answer.commitment
+        identity = driver.identity
+        ours = _commitment(
+            identity.product, identity.version, made.profile, subjects, statement, known, self._systematic
+        )
+        for name in ("product", "version", "statement", "waivers", "suite", "systematic", "subjects"):
+            if getattr(made, name) != getattr(ours, name):
+                raise WrongUse(
+                    f"the vendor committed to another {name} than this run would have; restore it, or commit anew: ucm-cts commit"
+                )
+
+    def measured(self, driver: Driver) -> None:
+        """The run has ended, and its hosts are still there."""
+        assert isinstance(driver, RecordingDriver)
+        self._record = encoded(driver.record)
+        self._subjects = subjects_of(driver.adapter_file, self._wanted.artifacts, driver.loaded_files())
+
+    def finish(self, report: FrameworkReport, wanted: FrameworkRun, known: tuple[KnownFailure, ...]) -> str:
+        """Write the certificate of ``report``. Returns the line to print."""
+        if report.incomplete:
+            return "no certificate is made of an incomplete run; run it again"
+        run = Run(
+            report=entry_of(report),
+            record=self._record,
+            statement=report.statement,
+            waivers=known,
+            subjects=self._subjects,
+            settings=Settings(
+                wanted.limits.seconds,
+                wanted.limits.memory,
+                wanted.limits.incident_seconds,
+                wanted.systematic,
+                report.effort.measures.get(DRAWN_SCENARIOS, 0),
+            ),
+            assurance="witnessed"
+            if self._wanted.witness
+            else "challenged"
+            if self._answer is not None
+            else "self-declared",
+            challenge=self._challenge,
+        )
+        content = certificate(run, [self._signer])
+        self._check(content)
+        write_new(self._wanted.out, content)
+        return f"certificate {self._wanted.out} ({len(content):,} bytes); verify it: ucm-cts verify {self._wanted.out} --trust KEYS"
+
+    def _check(self, content: bytes) -> None:
+        """Raises if the certificate does not stand although the run was just made."""
+        own = Trust({self._signer.public_key.keyid: TrustedKey("own", self._signer.public_key)})
+        verified = Verifier(own, judged_again).verify(content)
+        if verified.problems:
+            told = "; ".join(f"{problem.check}: {problem.detail}" for problem in verified.problems[:3])
+            raise RuntimeError(f"the certificate would not stand, and is not written ({told}); the report is kept")
+
+
+@dataclass(frozen=True)
+class Committing:
+    """What a vendor commits to: the arguments of ``ucm-cts commit``."""
+
+    adapter: str
+    profile: str
+    artifacts: tuple[Path, ...]
+    ics: Path | None
+    known_failures: Path | None
+    systematic: int
+
+    def commitment(self) -> Commitment:
+        """The commitment, as of now. Raises ``WrongUse``, ``DocumentError`` and ``HostUnavailable``."""
+        endpoint = locate(self.adapter)
+        known = known_today(self.known_failures)
+        statement = stated_by(self.ics, self.adapter)
+        with ends_like_interrupts(), Driver(endpoint, 0, LIMITS) as driver:
+            identity = driver.identity
+            check_subject(statement, identity, self.profile)
+            subjects = subjects_of(driver.adapter_file, self.artifacts, ())
+        return _commitment(
+            identity.product, identity.version, self.profile, subjects, statement, known, self.systematic
+        )
+
+
+def _commitment(
+    product: str,
+    version: str,
+    profile: str,
+    subjects: tuple[Subject, ...],
+    statement: Statement,
+    known: tuple[KnownFailure, ...],
+    systematic: int,
+) -> Commitment:
+    return Commitment(
+        product=one_line(product),
+        version=one_line(version),
+        profile=profile,
+        subjects=descriptors({subject.name: subject.sha256 for subject in subjects}),
+        statement=digest(statement_member(statement)),
+        waivers=digest(waivers_member(known)),
+        suite=suite_digest(),
+        systematic=systematic,
+        made=now(),
+    )
+
+
+def check_new(path: Path) -> None:
+    """Raise ``WrongUse`` unless a file can be made at ``path``, where there is none."""
+    if os.path.lexists(path):
+        raise WrongUse(f"'{path}' is there already, and is never written over; move it away, or choose another --out")
+    try:
+        tempfile.TemporaryFile(dir=path.parent).close()
+    except OSError as error:
+        raise WrongUse(f"'{path}' cannot be written: {error.strerror}; choose another --out") from None
+
+
+def write_new(path: Path, content: bytes) -> None:
+    """Write a new file, whole or not at all. Raises ``WrongUse`` if one came there meanwhile."""
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name[:50]}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        os.chmod(temporary, 0o644)
+        os.link(temporary, path)
+    except OSError as error:
+        raise WrongUse(f"'{path}' cannot be written: {error.strerror}; choose another --out") from None
+    finally:
+        Path(temporary).unlink(missing_ok=True)
