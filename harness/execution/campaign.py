@@ -143,7 +143,7 @@ class Campaign:
         if not verdicts.findings:
             self._tally.add(Execution(answer.name, answer.scenario, answer.trace), verdicts, ())
             took = answer.trace[-1].t - answer.trace[0].t if answer.trace else 0
-            for requirement in timed_requirements().intersection(verdicts.exercises):
+            for requirement in sorted(timed_requirements().intersection(verdicts.exercises)):
                 if took < self._took.get(requirement, math.inf):
                     self._timed[requirement], self._took[requirement] = (answer.name, answer.scenario), took
             return
