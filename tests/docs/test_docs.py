@@ -181,7 +181,11 @@ def test_pytest_command_is_the_one_that_test_pytest_plugin_runs() -> None:
 def test_options_are_documented_exactly() -> None:
     pages = [
         "README.md",
-        *(f"docs/{name}.md" for name in ("detection", "explore", "certificates") if (ROOT / f"docs/{name}.md").is_file()),
+        *(
+            f"docs/{name}.md"
+            for name in ("detection", "explore", "certificates")
+            if (ROOT / f"docs/{name}.md").is_file()
+        ),
     ]
     shown = {option.split()[0] for page in pages for option in column(page, "`(-.+?)`")}
     there = {o for c in cli.commands.values() for p in c.params if isinstance(p, click.Option) for o in p.opts}
