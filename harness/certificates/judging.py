@@ -6,15 +6,18 @@ from dataclasses import dataclass
 
 import msgspec
 
-from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.certificates.contents import Claims
 from ucm_cts.harness.certificates.delta import NOT_FROM_TRACES, judged_by_this_suite
 from ucm_cts.harness.certificates.problems import Problem, unreadable
 from ucm_cts.harness.certificates.reading import Contents
 from ucm_cts.harness.certificates.rejudging import RunPlan, judge_again
 from ucm_cts.harness.execution.recording import RecordError, decoded
+from ucm_cts.harness.hosting.extras import need
+from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.json_report import ReportEntry, to_json
-from ucm_cts.harness.results.foreign import clean_report
+from ucm_cts.harness.results.foreign import clean_report, one_line
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import overall
 from ucm_cts.harness.results.values import Report
@@ -34,6 +37,8 @@ def judged_again(contents: Contents, statement: Statement, is_delta: bool) -> Ju
     assert claims is not None
     assert environment is not None
     assert contents.record is not None
+    if claims.profile in TOOLCHAIN_PROFILES:
+        return _of_toolchain(contents, claims, statement, is_delta)
     try:
         record = decoded(contents.record)
     except RecordError as error:
@@ -54,6 +59,36 @@ def judged_again(contents: Contents, statement: Statement, is_delta: bool) -> Ju
         incident_seconds=settings.incident_time,
     )
     judged = judge_again(record, plan)
+    return JudgedAgain(entry_of(judged.report), tuple(Problem("record", problem) for problem in judged.problems))
+
+
+def _of_toolchain(contents: Contents, claims: Claims, statement: Statement, is_delta: bool) -> JudgedAgain:
+    """What the record of a tool chain shows. Raises ``Unreadable``."""
+    need("toolchain", "verifying a certificate of a tool chain")
+    from ucm_cts.harness.certificates.toolchain_rejudging import judge_toolchain_again
+    from ucm_cts.harness.toolchains import recorded_form
+    from ucm_cts.harness.toolchains.campaign import ToolChainPlan
+
+    if is_delta:
+        raise unreadable(
+            "suite",
+            "the models of a tool chain follow from the suite, so that another one cannot judge its answers: run it again",
+        )
+    assert contents.record is not None
+    try:
+        record = recorded_form.decoded(contents.record)
+        plan = ToolChainPlan(
+            claims.product,
+            claims.version,
+            claims.profile,
+            statement,
+            contents.waivers or (),
+            source=contents.report.adapter if contents.report is not None else "",
+            seed=claims.seed,
+        )
+        judged = judge_toolchain_again(record, plan, contents.is_vouched_for)
+    except (recorded_form.RecordError, WrongUse) as error:
+        raise unreadable("record", one_line(str(error), 400)) from None
     return JudgedAgain(entry_of(judged.report), tuple(Problem("record", problem) for problem in judged.problems))
 
 

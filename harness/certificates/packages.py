@@ -30,7 +30,7 @@ def packages_of(adapter_file: str) -> tuple[Subject, ...]:
 
     Packages that those need are found by what their distributions require. Python's own library is not among them.
     """
-    if not adapter_file.endswith(".py") or not os.path.isfile(adapter_file):
+    if not os.path.isfile(adapter_file) or not (adapter_file.endswith(".py") or _is_script(Path(adapter_file))):
         return ()
     places: dict[str, Path] = {}
     own = _own(Path(adapter_file))
@@ -50,6 +50,15 @@ def packages_of(adapter_file: str) -> tuple[Subject, ...]:
     return tuple(Subject(f"package/{one_line(name)}", _digest_of(place)) for name, place in sorted(places.items()))
 
 
+def _is_script(file: Path) -> bool:
+    """Is it a program in Python, as installers write them?"""
+    try:
+        with open(file, "rb") as stream:
+            return re.match(rb"#!.*\bpython", stream.readline(300)) is not None
+    except OSError:
+        return False
+
+
 def _own(file: Path) -> Path:
     """The package that has the adapter, or the adapter's file."""
     return file.parent if (file.parent / "__init__.py").is_file() else file
@@ -58,7 +67,7 @@ def _own(file: Path) -> Path:
 def _imported(place: Path) -> Iterator[str]:
     """The packages that the code at ``place`` imports: top-level names, and folders of bundled adapters."""
     for file in _files(place):
-        if file.suffix != ".py":
+        if file.suffix != ".py" and file != place:
             continue
         try:
             tree = ast.parse(file.read_bytes())

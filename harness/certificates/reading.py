@@ -50,7 +50,10 @@ _MODEL_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,99}\.xml")
 
 @dataclass
 class Contents:
-    """A certificate as it was read; a member is None if it could not be read. ``problems`` say why."""
+    """A certificate as it was read; a member is None if it could not be read. ``problems`` say why.
+
+    ``is_vouched_for``: whether a verifier found out that somebody signed it whom the verifier trusts.
+    """
 
     digest: str
     members: dict[str, bytes] = field(default_factory=dict)
@@ -64,6 +67,7 @@ class Contents:
     challenge: Answered | None = None
     record: bytes | None = None
     problems: list[Problem] = field(default_factory=list)
+    is_vouched_for: bool = False
 
     @property
     def claims(self) -> Claims | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import stat
 from collections.abc import Iterable
 from pathlib import Path
@@ -13,6 +14,7 @@ from ucm_cts.harness.certificates.packages import packages_of
 from ucm_cts.harness.certificates.verified import Subject
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.toolchains.commands.description import Task, ToolChain
 
 _CHUNK = 1 << 20
 
@@ -37,6 +39,24 @@ def subjects_of(adapter_file: str, artifacts: Iterable[Path], loaded: Iterable[s
         raise WrongUse(
             "nothing is here that a certificate could be of: the adapter is on another machine; name the product's files with --artifact"
         )
+    return tuple(found.values())
+
+
+def subjects_of_toolchain(toolchain: ToolChain, task: Task, artifacts: Iterable[Path]) -> tuple[Subject, ...]:
+    """The description of ``toolchain``, the programs and files that its command for ``task`` names, their Python packages, and the
+    ``artifacts`` that the vendor names. Raises ``WrongUse``.
+    """
+    found: dict[str, Subject] = {}
+    for path in artifacts:
+        _add(found, "artifact", path, _digest(path))
+    description = Path(toolchain.folder) / toolchain.source
+    _add(found, "description", description, _digest(description))
+    described = toolchain.command_for(task)
+    for word in described.command if described is not None else ():
+        program = shutil.which(word) or os.path.join(toolchain.folder, word)
+        if os.path.isfile(program):
+            _add(found, "program", Path(program), _digest(Path(program)))
+            found |= {package.name: package for package in packages_of(program)}
     return tuple(found.values())
 
 

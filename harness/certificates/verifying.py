@@ -71,6 +71,7 @@ class Verifier:
         if contents.signed is None or claims is None or contents.envelope is None:
             return _nothing(contents.digest, problems)
         signers, others = self._signers(contents, claims)
+        contents.is_vouched_for = bool(signers)
         problems += others
         problems += _digests(contents)
         problems += inconsistencies(contents.signed, contents.report, contents.environment)

@@ -10,7 +10,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.execution.driver import Limits
@@ -63,6 +65,7 @@ def key(name: str, out: Path) -> None:
 )
 @options.ics_option
 @_known_option
+@options.toolchain_option
 @options.seed_option
 @click.option("--challenge", type=_FILE, help="An auditor's challenge, which gives the seed.")
 @click.option("--witness", is_flag=True, help="You are the auditor, and --key is yours.")
@@ -93,6 +96,7 @@ def certify(
     report: Path,
     ics: Path | None,
     known_failures: Path | None,
+    toolchain: Path | None,
     seed: int | None,
     challenge: Path | None,
     witness: bool,
@@ -103,29 +107,39 @@ def certify(
     explore: options.Budget,
     everything: bool,
 ) -> None:
-    """Run a profile on ADAPTER as 'ucm-cts run' does, and sign what came out as a certificate.
+    """Run a profile on ADAPTER, or a tool chain, as 'ucm-cts run' does, and sign what came out as a certificate.
 
     It holds everything from which 'ucm-cts verify' derives each verdict again. A run that is not conformant is certified,
     too, and the certificate says so; an incomplete one is not. Exit status: as of 'ucm-cts run'.
     """
     need("certificates", "certifying")
-    from ucm_cts.harness.cli.certificate_run import CertificateKeeper, Wanted
+    from ucm_cts.harness.cli.certificate_run import CertificateKeeper, Wanted, certify_toolchain_run
     from ucm_cts.harness.cli.framework_run import FrameworkRun, certify_framework
+    from ucm_cts.harness.cli.toolchain_command import ToolChainRun
 
     wanted = Wanted(key, tuple(artifacts), out, challenge, witness)
     if challenge is not None and (seed is not None or witness):
         raise WrongUse("the challenge gives the seed, and is for vendors: leave out --seed and --witness")
+    drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
+    if toolchain is not None:
+        if adapter or challenge is not None:
+            raise WrongUse("--toolchain names a tool chain: leave out ADAPTER; challenges are for frameworks")
+        source = click.get_current_context().get_parameter_source("profile")
+        chosen = profile if source is ParameterSource.COMMANDLINE else TOOLCHAIN_PROFILES[0]
+        if chosen not in TOOLCHAIN_PROFILES:
+            raise WrongUse(f"profile '{chosen}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
+        certify_toolchain_run(
+            wanted, ToolChainRun(toolchain, chosen, "", report, known_failures, ics, drawn, everything)
+        )
+    if profile in TOOLCHAIN_PROFILES:
+        raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
     keeper = CertificateKeeper(wanted, profile, systematic)
-    if keeper.seed is not None:
-        drawn = keeper.seed
-    else:
-        drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     certify_framework(
         FrameworkRun(
             adapter=adapter,
             profile=profile,
             expression="",
-            seed=drawn,
+            seed=keeper.seed if keeper.seed is not None else drawn,
             out=report,
             known_failures=known_failures,
             ics=ics,

@@ -6,6 +6,9 @@ import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NoReturn
+
+from securesystemslib.signer import CryptoSigner
 
 from ucm_cts.harness.certificates.certifying import Run, certificate, models_of, statement_member, waivers_member
 from ucm_cts.harness.certificates.challenges import Answered, Commitment, answered, now, read_small
@@ -13,22 +16,28 @@ from ucm_cts.harness.certificates.contents import Settings, descriptors, digest
 from ucm_cts.harness.certificates.judging import entry_of, judged_again
 from ucm_cts.harness.certificates.keys import Trust, TrustedKey, signer_of
 from ucm_cts.harness.certificates.problems import Unreadable
-from ucm_cts.harness.certificates.subjects import subjects_of
+from ucm_cts.harness.certificates.subjects import subjects_of, subjects_of_toolchain
 from ucm_cts.harness.certificates.suite_build import suite_digest
 from ucm_cts.harness.certificates.verified import Subject
 from ucm_cts.harness.certificates.verifying import Verifier
 from ucm_cts.harness.cli.framework_run import FrameworkRun
-from ucm_cts.harness.cli.terminal import ends_like_interrupts
+from ucm_cts.harness.cli.options import leave_with
+from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
+from ucm_cts.harness.cli.toolchain_command import ToolChainRun, run_toolchain
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.offers import LIMITS
 from ucm_cts.harness.execution.recording import RecordingDriver, encoded
 from ucm_cts.harness.exploring.in_runs import DRAWN_SCENARIOS
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
+from ucm_cts.harness.report.write import keep_report, report_folder
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import KnownFailure, known_today
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.files import check_subject, stated_by
+from ucm_cts.harness.toolchains import recorded_form
+from ucm_cts.harness.toolchains.campaign import TASKS
+from ucm_cts.harness.toolchains.commands.description import read_toolchain
 
 
 @dataclass(frozen=True)
@@ -101,7 +110,7 @@ class CertificateKeeper:
     def finish(self, report: FrameworkReport, wanted: FrameworkRun, known: tuple[KnownFailure, ...]) -> str:
         """Write the certificate of ``report``. Returns the line to print."""
         if report.incomplete:
-            return "no certificate is made of an incomplete run; run it again"
+            return _INCOMPLETE
         run = Run(
             report=entry_of(report),
             record=self._record,
@@ -122,18 +131,7 @@ class CertificateKeeper:
             else "self-declared",
             challenge=self._challenge,
         )
-        content = certificate(run, [self._signer])
-        self._check(content)
-        write_new(self._wanted.out, content)
-        return f"certificate {self._wanted.out} ({len(content):,} bytes); verify it: ucm-cts verify {self._wanted.out} --trust KEYS"
-
-    def _check(self, content: bytes) -> None:
-        """Raises if the certificate does not stand although the run was just made."""
-        own = Trust({self._signer.public_key.keyid: TrustedKey("own", self._signer.public_key)})
-        verified = Verifier(own, judged_again).verify(content)
-        if verified.problems:
-            told = "; ".join(f"{problem.check}: {problem.detail}" for problem in verified.problems[:3])
-            raise RuntimeError(f"the certificate would not stand, and is not written ({told}); the report is kept")
+        return _written(certificate(run, [self._signer]), self._signer, self._wanted.out)
 
 
 @dataclass(frozen=True)
@@ -159,6 +157,46 @@ class Committing:
         return _commitment(
             identity.product, identity.version, self.profile, subjects, statement, known, self.systematic
         )
+
+
+def certify_toolchain_run(wanted: Wanted, run: ToolChainRun) -> NoReturn:
+    """Run a tool chain, write report and certificate, and end. Raises ``WrongUse`` and ``DocumentError``."""
+    signer = signer_of(wanted.key)
+    check_new(wanted.out)
+    console = Output()
+    with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(run.out) as folder:
+        toolchain = read_toolchain(run.path)
+        subjects = subjects_of_toolchain(toolchain, TASKS[run.profile], wanted.artifacts)
+        ran = run_toolchain(run, console, interrupts)
+        saved = keep_report(ran.report, folder)
+        if ran.report.incomplete:
+            console.say(_INCOMPLETE)
+        else:
+            made = Run(
+                report=entry_of(ran.report),
+                record=recorded_form.encoded(ran.record()),
+                statement=ran.plan.statement,
+                waivers=tuple(ran.known),
+                subjects=subjects,
+                settings=Settings(toolchain.seconds, toolchain.memory, 0.0, 0, 0),
+                assurance="witnessed" if wanted.witness else "self-declared",
+            )
+            console.say(_written(certificate(made, [signer]), signer, wanted.out))
+        leave_with(console, ran.report, saved, ran.known, run.everything)
+
+
+_INCOMPLETE = "no certificate is made of an incomplete run; run it again"
+
+
+def _written(content: bytes, signer: CryptoSigner, out: Path) -> str:
+    """Write a certificate that stands. Returns the line about it. Raises if it does not stand although the run was just made."""
+    own = Trust({signer.public_key.keyid: TrustedKey("own", signer.public_key)})
+    verified = Verifier(own, judged_again).verify(content)
+    if verified.problems:
+        told = "; ".join(f"{problem.check}: {problem.detail}" for problem in verified.problems[:3])
+        raise RuntimeError(f"the certificate would not stand, and is not written ({told}); the report is kept")
+    write_new(out, content)
+    return f"certificate {out} ({len(content):,} bytes); verify it: ucm-cts verify {out} --trust KEYS"
 
 
 def _commitment(
