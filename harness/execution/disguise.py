@@ -1,4 +1,4 @@
-"""The disguise of a run: random names and payloads, different in each run, so that a framework cannot hard-code answers.
+"""The disguise of a run: drawn names and payloads, different in each run, so that a framework cannot hard-code answers.
 
 Traces are judged in the disguised spelling, against the disguised scenario; only what people read is revealed.
 A name the framework made up stays as it is and therefore never equals a name of the scenario.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 import re
 import string
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
 import msgspec
@@ -20,6 +20,8 @@ from ucm_cts.adapters.contract.data_values import read_spelled
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario
 from ucm_cts.adapters.contract.traits import Binds, Names, fields
 from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.execution.naming import Naming
+from ucm_cts.harness.execution.revealing import Revealing
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.payloads import EDGES, LARGEST
 from ucm_cts.harness.results.foreign import one_line
@@ -29,10 +31,6 @@ S = TypeVar("S", bound=Value)
 
 LONGEST_NAME = 100
 """Characters that the pattern of names of port elements may have."""
-
-_LETTERS = "bcdfghjklmnpqrstvwxz"
-_NUMBER = r"(?<!\d)-?\d{10,}(?!\d)"
-"""What may be a payload: it is never a part of a longer number, such as a time."""
 
 _WORD = re.compile(r"\w{2,32}")
 """An attribute value that says nothing but its name."""
@@ -48,12 +46,13 @@ class Disguise:
     def __init__(self, seed: int, port_element_name: str) -> None:
         _check(port_element_name)
         self._random = random.Random(seed)
+        self._naming = Naming(self._random)
         self._port_element_name = port_element_name
         self._tokens: dict[str, str] = {}
+        self._words: dict[str, str] = {}
         self._ports: dict[str, str] = {}
         self._values: dict[int, int] = {}
-        self._plain: dict[str, str] = {}
-        self._pattern: re.Pattern[str] | None = None
+        self._revealing = Revealing()
 
     def scenario(self, scenario: Scenario) -> Scenario:
         """``scenario`` in disguise."""
@@ -74,42 +73,36 @@ class Disguise:
 
     def reveal(self, value: T) -> T:
         """``value``, any message value or finding, in the script's own names and payloads."""
-        if self._pattern is None:
-            self._pattern = _pattern_of(self._plain)
-        revealed = self._pattern.sub(self._revealed, _text(value))
-        return msgspec.json.decode(revealed.encode(), type=type(value))
+        return _read_again(self._revealing.reveal(_text(value)), value)
 
     def words_in(self, value: object) -> dict[str, str]:
-        """The random names and payloads in ``value``, each with what it stands for: all that ``revealed_by`` needs to reveal it."""
-        self.reveal(())  # makes the pattern
-        assert self._pattern is not None
-        found = {match.group(): self._revealed(match) for match in self._pattern.finditer(_text(value))}
-        return {random_: plain for random_, plain in found.items() if random_ != plain}
-
-    def _revealed(self, found: re.Match[str]) -> str:
-        text = found.group()
-        unsigned = text.removeprefix("-")
-        return self._plain.get(text) or text.removesuffix(unsigned) + self._plain.get(unsigned, unsigned)
+        """The drawn names and payloads in ``value``, each with what it stands for: all that ``revealed_by`` needs to reveal it."""
+        return self._revealing.words_in(_text(value))
 
     def _remember(self, disguised: str, plain: str) -> None:
-        self._plain[_as_json(disguised)] = _as_json(plain)
-        self._pattern = None
+        self._revealing.add(_as_json(disguised), _as_json(plain))
 
     def _name(self, plain: str) -> str:
         token = self._tokens.get(plain)
         if token is None:
-            token = "".join(self._random.choices(_LETTERS, k=9))
-            self._tokens[plain] = token
+            token = self._tokens[plain] = self._naming.name()
+            self._remember(token, plain)
+        return token
+
+    def _word(self, plain: str) -> str:
+        """The beginning of a message: letters only, and always as many."""
+        token = self._words.get(plain)
+        if token is None:
+            token = self._words[plain] = self._naming.word()
             self._remember(token, plain)
         return token
 
     def _name_methods(self, methods: Sequence[str]) -> None:
-        """If the name of a method begins with the name of an earlier one, its random name does so, too."""
+        """If the name of a method begins with the name of an earlier one, its drawn name does so, too."""
         for number, method in enumerate(methods):
             beginnings = [other for other in methods[:number] if method.startswith(other)]
             if beginnings and method not in self._tokens and not s.STANDARD_METHODS & {method, beginnings[-1]}:
-                token = self._name(beginnings[-1]) + "".join(self._random.choices(_LETTERS, k=3))
-                self._tokens[method] = token
+                token = self._tokens[method] = self._naming.longer(self._name(beginnings[-1]))
                 self._remember(token, method)
 
     def _port(self, plain: str) -> str:
@@ -127,7 +120,7 @@ class Disguise:
         value = self._values.get(plain)
         if value is None:
             value = self._random.randrange(10**9, LARGEST)
-            while str(value) in self._plain:
+            while str(value) in self._revealing:
                 value = self._random.randrange(10**9, LARGEST)
             if plain < 0:
                 value = ~value
@@ -180,10 +173,10 @@ class Disguise:
         return named
 
     def _arguments(self, call: s.CallMethod) -> tuple[Datum, ...]:
-        """Messages for the log begin with a name."""
+        """Messages for the log begin with a word."""
         match call.method, call.arguments:
             case "log", (severity, str(message)):
-                return severity, re.sub(r"^[A-Za-z]+", lambda name: self._name(name.group()), message)
+                return severity, re.sub(r"^[A-Za-z]+", lambda name: self._word(name.group()), message)
             case _:
                 return call.arguments
 
@@ -210,27 +203,18 @@ class Disguise:
 
 def revealed_by(words: Mapping[str, str], value: T) -> T:
     """``value`` with each of ``words`` replaced. Raises ``msgspec.MsgspecError`` if it is then no value of its type."""
-    revealed = _pattern_of(words).sub(lambda match: words.get(match.group(), match.group()), _text(value))
-    return msgspec.json.decode(revealed.encode(), type=type(value))
+    revealing = Revealing()
+    for drawn, plain in words.items():
+        revealing.add(drawn, plain)
+    return _read_again(revealing.reveal(_text(value)), value)
 
 
 def _text(value: object) -> str:
     return msgspec.json.encode(value).decode()
 
 
-def _pattern_of(words: Iterable[str]) -> re.Pattern[str]:
-    """Matches numbers that may be payloads, and the names among ``words``."""
-    names = sorted((name for name in words if not name.lstrip("-").isdigit()), key=len, reverse=True)
-    return re.compile("|".join((_NUMBER, *_by_first_letter(names))))
-
-
-def _by_first_letter(names: Iterable[str]) -> Iterator[str]:
-    """One pattern for all of ``names`` that begin alike, so that each place of a text is compared with a few of them only."""
-    by_letter: dict[str, list[str]] = {}
-    for name in names:
-        by_letter.setdefault(name[0], []).append(re.escape(name[1:]))
-    for letter, rests in by_letter.items():
-        yield f"{re.escape(letter)}(?:{'|'.join(rests)})"
+def _read_again(text: str, value: T) -> T:
+    return msgspec.json.decode(text.encode(), type=type(value))
 
 
 def _as_json(text: str) -> str:

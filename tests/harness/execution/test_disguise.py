@@ -63,7 +63,7 @@ def words(scenario: Scenario) -> set[str]:
     for name, declaration in scenario.components.items():
         seen.update((name, *declaration.provides, *declaration.requires))
         seen.update(declaration.attributes, declaration.attributes.values())
-        seen.update(re.findall(r"-?\d+", str(declaration.plan)))
+        seen.update(re.findall(r"(?<![\w-])-?\d+\b", str(declaration.plan)))
     for step in scenario.steps:
         fields = msgspec.to_builtins(step)
         seen.update(str(fields[key]) for key in ("component", "port", "value") if key in fields)

@@ -10,16 +10,22 @@ import json
 import re
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, ClassVar, Literal
 
+from ucm_cts.adapters import contract
 from ucm_cts.adapters.mutants.python.cheats.adapters import before
 from ucm_cts.adapters.mutants.python.life_cycle import containers
 from ucm_cts.adapters.mutants.python.registry import CHEATS, CONTAINER, Cheat
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 
-_DISGUISED = re.compile(r"(?<![0-9a-z])(?:[bcdfghjklmnpqrstvwxz]{9}|-?\d{10})(?![0-9a-z])")
-"""Names and payloads that differ in each run."""
+_SCHEMA = Path(contract.__file__).with_name("protocol.schema.json")
+_PROTOCOL = frozenset(re.findall(r'"([^"]*)"', _SCHEMA.read_text()))
+"""All words of the protocol: what else is between quotes are names, which differ in each run."""
+
+_DISGUISED = re.compile(r'(?<=")[^"\\]{5,}(?=")|-?\b\d{10}\b')
+"""Names and payloads that differ in each run, and words of the protocol."""
 
 Times = Literal["old", "new", "lived through"]
 
@@ -74,6 +80,8 @@ def _template(text: str, names: list[str], known: tuple[str, ...] | None = None)
 
     def number(found: re.Match[str]) -> str:
         name, sign = found.group(), ""
+        if name in _PROTOCOL:
+            return name
         if name.lstrip("-").isdigit():
             value = int(name)
             name, sign = str(max(value, ~value)), "~" if value < 0 else ""
@@ -83,7 +91,8 @@ def _template(text: str, names: list[str], known: tuple[str, ...] | None = None)
             names.append(name)
         return f"<{sign}{names.index(name)}>"
 
-    return _DISGUISED.sub(number, text), names
+    inside = "|".join(sorted(map(re.escape, known or ()), key=len, reverse=True))
+    return re.sub(f"{_DISGUISED.pattern}|{inside}" if inside else _DISGUISED, number, text), names
 
 
 def _filled(template: str, names: list[str]) -> str:
