@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness.execution.driving import Answer, Circumstances, Driving, Gaps
+from ucm_cts.harness.execution.driving import LONGEST_HISTORY, Answer, Circumstances, Driving, Gaps
 from ucm_cts.harness.results.tally import Cause, cause_of
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding
@@ -28,7 +28,10 @@ PATIENT = Circumstances(patience=5)
 OTHERWISE = Circumstances(patience=2, one_core=True)
 """Another timeout and another schedule."""
 
-FURTHER = (OTHERWISE, PATIENT, Circumstances())
+LATER = Circumstances(after=LONGEST_HISTORY)
+"""On a host that has run as many scenarios before as are known."""
+
+FURTHER = (OTHERWISE, PATIENT, Circumstances(), LATER)
 """The further runs of a failure that does not depend on time; the first run that shows it again ends them."""
 
 MOST_ATTEMPTS = 3

@@ -17,7 +17,15 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.harness.execution.calls_apart import with_calls_apart
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
-from ucm_cts.harness.execution.driving import Allowance, Answer, Circumstances, Disguising, Seconds, lasting
+from ucm_cts.harness.execution.driving import (
+    LONGEST_HISTORY,
+    Allowance,
+    Answer,
+    Circumstances,
+    Disguising,
+    Seconds,
+    lasting,
+)
 from ucm_cts.harness.execution.host_clock import HostClock
 from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.host_watch import Usage
@@ -35,6 +43,9 @@ MOST_UNTRIED = 32
 """How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
 
 _BETWEEN_COUNTS = 0.02
+
+_QUICK = 10_000_000
+"""Nanoseconds of an ordinary scenario, which can be run before another one at little cost."""
 
 _SHOWN = 5
 """How many kinds of processes a warning names."""
@@ -59,6 +70,7 @@ class Driver(Disguising):
         self._is_near = endpoint.kind in ("python", "executable")
         self._clock: tuple[int, HostClock] = (0, HostClock(self._is_near))
         self._left_waiting = 0
+        self._ordinary: deque[Scenario] = deque(maxlen=LONGEST_HISTORY)
         self._calls_apart = False
 
     def __enter__(self) -> Self:
@@ -142,6 +154,8 @@ class Driver(Disguising):
                     yield from untried()
                     case = waiting.popleft()
                     answer = self._examine(case, reply, insist)
+                    if _is_ordinary(answer):
+                        self._ordinary.append(answer.disguised)
                     self._incident_time.note_skips(answer.disguised, answer.trace if answer.incident is None else ())
                     lost = isinstance(reply.reply, Incident) and reply.reply.kind in _HOST_IS_GONE
                     if answer.incident is not None and (lost or answer.disguised is not case.run.scenario):
@@ -170,13 +184,18 @@ class Driver(Disguising):
         return replace(case if apart is case.scenario else self._case(case.name, apart), plain=case.scenario)
 
     def again(self, name: str, scenario: Scenario, circumstances: Circumstances) -> Answer:
-        """The same scenario run once more, on a host of its own, in other ``circumstances``.
+        """The same scenario run once more, in other ``circumstances``, as it was run before: on a fresh host that has run some
+        ordinary scenarios, and not streamed. So no host can tell that it is a second look.
 
         The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
         """
         scaled = lasting(scenario, circumstances.patience)
         disguised = self.disguise.scenario(scaled)
-        reply = self._hosts.run_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
+        before = [
+            Run(next(self._numbers), one) for one in itertools.islice(reversed(self._ordinary), circumstances.after)
+        ]
+        run = Run(next(self._numbers), disguised)
+        reply = self._hosts.run_again(run, circumstances.one_core, stream=False, first=before).reply
         if not isinstance(reply, Traced) or contradiction(disguised, reply.events, reply.stuck) is not None:
             return Answer(name, scaled, disguised, ())
         return Answer(name, scaled, disguised, reply.events, stuck=reply.stuck)
@@ -281,6 +300,12 @@ class Driver(Disguising):
         if first is None:
             return self._examine(case, second, insist=True)
         return replace(answer, incident=msgspec.structs.replace(first, reproduced=False))
+
+
+def _is_ordinary(answer: Answer) -> bool:
+    """Whether it went quickly and without an incident."""
+    trace = answer.trace
+    return answer.incident is None and not answer.stuck and len(trace) > 1 and trace[-1].t - trace[0].t < _QUICK
 
 
 def _hangs_openly(scenario: Scenario, answer: HostAnswer, happened: Trace) -> bool:

@@ -22,6 +22,12 @@ T = TypeVar("T")
 
 _EMPTY = Scenario({}, ())
 
+WARM_UP = 8
+"""A host that runs a scenario again has run so many others before, as the first one had."""
+
+LONGEST_HISTORY = 200
+"""So many are known."""
+
 
 @dataclass(frozen=True)
 class Answer:
@@ -53,10 +59,12 @@ class Circumstances:
 
     ``patience``: the factor by which its patience is multiplied.
     ``one_core``: all threads of the host run on one core.
+    ``after``: how many other scenarios the host runs before, if there have been so many.
     """
 
     patience: float = 1
     one_core: bool = False
+    after: int = WARM_UP
 
 
 class Gaps(Protocol):

@@ -17,7 +17,7 @@ import itertools
 import sys
 import time
 from collections import Counter, deque
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Sequence
 from contextlib import suppress
 from typing import Self
 
@@ -158,11 +158,22 @@ class Hosts:
             if waiting:  # the caller has stopped asking for these answers
                 self.discard()
 
-    def run_again(self, run: m.Run, one_core: bool = False) -> Answer:
-        """Run one scenario alone on a host of its own that sends each event as it happens, perhaps on ``one_core`` only.
+    def run_again(self, run: m.Run, one_core: bool = False, stream: bool = True, first: Sequence[m.Run] = ()) -> Answer:
+        """Run one scenario on a fresh host, perhaps on ``one_core`` only; by default it sends each event as it happens.
 
+        ``first``: what the host runs before. If it does not answer one of these, the scenario gets a host of its own.
         May be called between two answers of a ``run`` in progress, which goes on with a fresh host.
         """
+        if first:
+            *others, answer = self._run_alone([*first, run], one_core)
+            if len(others) == len(first) and all(isinstance(one.reply, m.Traced) for one in others):
+                return answer
+        (answer,) = self._run_alone([msgspec.structs.replace(run, stream=stream)], one_core)
+        return answer
+
+    def _run_alone(self, runs: Sequence[m.Run], one_core: bool) -> list[Answer]:
+        """The answers of a fresh host; the last one is to what was lost with the host."""
+        answers: list[Answer] = []
         self.discard()
         try:
             if one_core:
@@ -170,10 +181,13 @@ class Hosts:
                     self._open()
                     assert self._host
                     self._host.keep_to_one_core()
-            (answer,) = self.run([msgspec.structs.replace(run, stream=True)])
+            for answer in self.run(runs):
+                answers.append(answer)
+                if not isinstance(answer.reply, m.Traced) or answer.reply.stuck:
+                    break
         finally:
             self.discard()
-        return answer
+        return answers
 
     @property
     def isolation(self) -> Isolation:
