@@ -156,6 +156,7 @@ class TestBare:
         [
             (("run", "--toolchain", "chain.toml"), r"pip install 'ucm-cts\[toolchain\]'"),
             (("selftest", "--toolchains", "--list"), r"pip install 'ucm-cts\[toolchain\]'"),
+            (("history",), r"pip install 'ucm-cts\[history\]'"),
             (("run", "reference-cpp"), "install a C[+][+] compiler, cmake and nlohmann-json3-dev"),
             (("--cmakedir",), "install a C[+][+] compiler, cmake and nlohmann-json3-dev"),
         ],
