@@ -17,6 +17,7 @@ from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.baseline import changes, pairs
 from ucm_cts.harness.report.baseline_formats import github_annotations, lines, to_junit
 from ucm_cts.harness.report.comparison import compare as lay_side_by_side
+from ucm_cts.harness.report.comparison import side_by_side
 from ucm_cts.harness.report.comparison_page import to_html
 from ucm_cts.harness.report.order import count
 from ucm_cts.harness.report.out_folder import OutFolder
@@ -81,7 +82,7 @@ def _compare_with(
     if out is not None:
         if len(found) > 1:
             raise WrongUse(f"one page shows one product and profile, and these are {len(found)}; leave out --out")
-        _save(out, to_html(lay_side_by_side([found[0].old.path, found[0].new.path]), out.parent).encode(), "--out")
+        _save(out, to_html(side_by_side([found[0].old, found[0].new]), out.parent).encode(), "--out")
     if junit is not None:
         _save(junit, to_junit(found), "--junit")
     for remark in dict.fromkeys((*remarks, *others)):

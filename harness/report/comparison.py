@@ -202,7 +202,11 @@ def compare(paths: Sequence[Path]) -> Comparison:
     """The reports in the files ``paths``, in that order. Raises ``DocumentError``, and ``WrongUse`` for their number."""
     if not 2 <= len(paths) <= MOST:
         raise WrongUse(f"{len(paths)} report(s) cannot be compared; name 2 to {MOST} files report.json")
-    columns = tuple(Column(path, read_report(path)) for path in paths)
+    return side_by_side([Column(path, read_report(path)) for path in paths])
+
+
+def side_by_side(columns: Sequence[Column]) -> Comparison:
+    """The reports in ``columns``, in that order. Raises ``WrongUse`` if they cannot be compared."""
     held = [{entry.id: entry for entry in column.report.requirements} for column in columns]
     for number, column in enumerate(columns):
         if column.report.incomplete:
@@ -221,7 +225,7 @@ def compare(paths: Sequence[Path]) -> Comparison:
     ]
     names = sorted({option for column in columns for option in column.report.readings})
     return Comparison(
-        columns,
+        tuple(columns),
         tuple(sorted(rows, key=lambda row: (clause_key(row.clause), row.clause, row.id))),
         tuple(Option(name, tuple(c.report.readings.get(name, ()) for c in columns)) for name in names),
     )

@@ -45,7 +45,7 @@ from ucm_cts.reference_models.monitor import Monitor
 pytestmark = pytest.mark.usefixtures("here")
 
 FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"
-PAGES = [ROOT / "README.md", FRAMEWORK / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [*sorted(ROOT.glob("*.md")), FRAMEWORK / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 ROOMS = {"suite", "reference_models", "harness", "adapters", "docs", "src", "tests"}
 PACKAGE = Path(package.__file__).parent
 TOOLCHAIN = "ucm-cts-toolchain-0.1.0"

@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 import pytest
 from command_line import Outcome, ucm_cts
+from forging import intact, made_report
 from lxml import etree
 from made_up_run import HOSTILE
 from report_entries import FINDING, report, requirement, save
@@ -236,3 +237,25 @@ def test_the_page_is_written_if_it_is_asked_for(tmp_path: Path, monkeypatch: pyt
     assert not list(tmp_path.glob("*.html"))
     compared(tmp_path, run(PASS), run(FAIL), "--out", tmp_path / "page.html")
     assert ID in (tmp_path / "page.html").read_text()
+
+
+def test_certificates_are_taken_with_a_word_that_they_were_not_verified(tmp_path: Path) -> None:
+    old, new = tmp_path / "old.ucmcert", tmp_path / "folder" / "new.ucmcert"
+    new.parent.mkdir()
+    old.write_bytes(intact())
+    new.write_bytes(intact("failing"))
+    outcome = ucm_cts("compare", "--baseline", old, new.parent, "--out", tmp_path / "page.html")
+    assert (outcome.status, outcome.err) == (1, "")
+    assert outcome.out.count("was taken as it is; to know that it stands: ucm-cts verify FILE --trust KEYS") == 2
+    broken = made_report().requirements[0].id
+    assert f"    {broken}  pass -> fail" in outcome.out
+    assert broken in (tmp_path / "page.html").read_text()
+
+
+@pytest.mark.parametrize("content", [b"", b"no zip", intact()[:-40], intact().replace(b'"pass"', b'"fail"', 1)])
+def test_a_damaged_certificate_is_refused_in_one_line(content: bytes, tmp_path: Path) -> None:
+    (tmp_path / "old.ucmcert").write_bytes(intact())
+    (tmp_path / "new.ucmcert").write_bytes(content)
+    outcome = ucm_cts("compare", "--baseline", tmp_path / "old.ucmcert", tmp_path / "new.ucmcert")
+    assert (outcome.status, outcome.out, outcome.err.count("\n")) == (2, "", 1)
+    assert outcome.err.startswith(f"ucm-cts: {tmp_path / 'new.ucmcert'}: ")
