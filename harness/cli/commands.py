@@ -23,6 +23,7 @@ from ucm_cts.harness.cli.explanation import explanation, overview
 from ucm_cts.harness.cli.explore_command import explore
 from ucm_cts.harness.cli.framework_run import FrameworkRun, certify_framework
 from ucm_cts.harness.cli.history_command import history
+from ucm_cts.harness.cli.publish_command import publish
 from ucm_cts.harness.cli.results_command import results
 from ucm_cts.harness.cli.selftest_command import selftest
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
@@ -270,6 +271,7 @@ cli.add_command(selftest)
 cli.add_command(explore)
 cli.add_command(compare)
 cli.add_command(results)
+cli.add_command(publish)
 for certificate_command in CERTIFICATE_COMMANDS:
     cli.add_command(certificate_command)
 cli.add_command(history)

@@ -1,4 +1,4 @@
-"""Makes pages of the templates beside this module; each page is one self-contained file."""
+"""Makes pages of templates; each page of a report is one self-contained file."""
 
 from __future__ import annotations
 
@@ -13,19 +13,28 @@ from ucm_cts.harness.results.foreign import one_line
 _TEMPLATES = Path(__file__).parent / "templates"
 
 
+class Pages:
+    """Templates in one folder, with the symbols that all pages share, and ``values`` for each of them."""
+
+    def __init__(self, templates: Path, **values: object) -> None:
+        self._environment = jinja2.Environment(
+            loader=jinja2.FileSystemLoader(templates),
+            autoescape=True,
+            undefined=jinja2.StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+        )
+        self._environment.filters["one_line"] = one_line
+        self._environment.globals.update(values, symbols=SYMBOLS, seals=SEALS, isolations=ISOLATIONS)
+
+    def rendered(self, template: str, **values: object) -> str:
+        """The page that ``template`` makes of ``values``."""
+        return self._environment.get_template(template).render(**values)
+
+
 def rendered(template: str, **values: object) -> str:
-    """The page that ``template`` makes of ``values`` and of the style and symbols that all pages share."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(_TEMPLATES),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["one_line"] = one_line
-    return environment.get_template(template).render(
-        style=part("report.css"), symbols=SYMBOLS, seals=SEALS, isolations=ISOLATIONS, **values
-    )
+    """The page that ``template``, beside this module, makes of ``values`` and of the style that all reports share."""
+    return Pages(_TEMPLATES).rendered(template, style=part("report.css"), **values)
 
 
 def part(name: str) -> Markup:

@@ -183,7 +183,7 @@ def test_options_are_documented_exactly() -> None:
         "README.md",
         *(
             f"docs/{name}.md"
-            for name in ("detection", "explore", "certificates")
+            for name in ("detection", "explore", "certificates", "publication")
             if (ROOT / f"docs/{name}.md").is_file()
         ),
     ]
