@@ -79,10 +79,13 @@ class Answered(Performed, frozen=True, tag="answer"):
 
 
 class Repeated(Performed, frozen=True, tag="again"):
-    """A second look: the same scenario in other circumstances. It has no events if there is no trace that can be believed."""
+    """A second look: the same scenario in other circumstances (``Circumstances``). It has no events if there is no trace that can be
+    believed.
+    """
 
     patience: Annotated[float, msgspec.Meta(ge=0, le=1000)] = 1
     one_core: bool = False
+    after: Annotated[int, msgspec.Meta(ge=0, le=1_000_000)] = 0
 
 
 class Usage(Value, frozen=True):

@@ -172,7 +172,7 @@ class RecordingDriver(Driver):
         answer, recorder = super().again(name, scenario, circumstances), self.recorder
         if not recorder.is_suspended:
             place, trace = recorder.scenario(answer.disguised), recorder.trace(answer.trace)
-            how = (float(circumstances.patience), circumstances.one_core)
+            how = (float(circumstances.patience), circumstances.one_core, circumstances.after)
             recorder.add(r.Repeated(recorder.now, name, place, *trace, answer.stuck, *how))
         return answer
 

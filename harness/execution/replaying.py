@@ -135,7 +135,7 @@ class Replay(Disguising):
         scaled = lasting(scenario, circumstances.patience)
         disguised = self.disguise.scenario(scaled)
         entry = self._take(r.Repeated, name, "a second look at a scenario")
-        if (entry.patience, entry.one_core) != (circumstances.patience, circumstances.one_core):
+        if Circumstances(entry.patience, entry.one_core, entry.after) != circumstances:
             raise Departure(f"the second look at {_shown(name)} was in other circumstances than those that are due")
         self._compare(entry, name, disguised)
         answer = Answer(name, scaled, disguised, self._trace(entry), stuck=entry.stuck)

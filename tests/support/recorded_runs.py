@@ -39,9 +39,11 @@ def some_purposes(plan: RunPlan, words: Iterable[str] = (), every: int = EVERY) 
     )
 
 
-def recorded(adapter: str, plan: RunPlan, purposes: Iterable[TestPurpose]) -> tuple[FrameworkReport, Record]:
+def recorded(
+    adapter: str, plan: RunPlan, purposes: Iterable[TestPurpose], in_process: bool = False
+) -> tuple[FrameworkReport, Record]:
     """A run of ``purposes``, and its record as it comes out of a file."""
-    with RecordingDriver(locate(adapter), plan.seed, plan.limits) as driver:
+    with RecordingDriver(locate(adapter, in_process), plan.seed, plan.limits) as driver:
         campaign = Campaign(driver, plan.profile, plan.known, plan.statement)
         carry_out(campaign, tuple(purposes), lambda: draw_scenarios(campaign, plan.seed, plan.drawn), Output())
         report, record = campaign.report(), driver.record

@@ -12,15 +12,21 @@ from typing import Any, NamedTuple
 
 import msgspec
 import pytest
+import subjects
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from recorded_runs import judged, plan_of, recorded, some_purposes
 
+from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.certificates.rejudging import Judged, RunPlan, judge_again, without_clock
+from ucm_cts.harness.execution import campaign
 from ucm_cts.harness.execution import record as r
+from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.recording import Record, RecordError, decoded, encoded
 from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.results.values import FrameworkReport
+from ucm_cts.harness.statement.applicability import purposes_for
 
 MUTANTS = "ucm_cts.adapters.mutants.python"
 
@@ -56,8 +62,7 @@ def conformant() -> Run:
 
 def test_a_record_is_judged_like_the_run(conformant: Run) -> None:
     is_same(conformant)
-    kinds = {type(entry) for entry in conformant.record.entries}
-    assert {r.Answered, r.Repeated, r.InSeries} <= kinds
+    assert {r.Answered, r.Repeated, r.InSeries} <= kinds(conformant)
     assert conformant.report.effort.measures["scenarios drawn at random"] == 20
 
 
@@ -83,7 +88,7 @@ def test_a_reader_finds_every_scenario_and_its_whole_trace(conformant: Run) -> N
         ("hostile.failing:HangsInStop", (), {"seconds": 0.5, "incident_seconds": 3.0}),
         ("hostile.failing:LeavesCallsWaiting", (), {"seconds": 1.0, "incident_seconds": 5.0}),
         ("hostile.failing:AddsNothing", (), {}),
-        ("subjects:Forgetful", (), {}),
+        ("hostile.attacking:HasAGreedyChild", (), {"memory": 250, "incident_seconds": 3.0}),
     ],
 )
 @pytest.mark.usefixtures("here")
@@ -93,6 +98,94 @@ def test_what_fails_crashes_or_hangs_is_judged_like_the_run(
     run = run_of(adapter, *words, every=25, **more)
     assert run.report.incidents or any(result.findings for result in run.report.requirements)
     is_same(run)
+
+
+def of_one_purpose(adapter: str, name: str) -> Run:
+    """A run in this process, of a test purpose of profile core, with a log that can be read."""
+    statement = msgspec.structs.replace(
+        default_statement(), readings=default_statement().readings | {"trace-sink": "hook"}
+    )
+    plan = RunPlan("core", 5, statement)
+    (purpose,) = (one for one in purposes_for(statement, "core") if one.id == name)
+    return Run(plan, (purpose,), *recorded(adapter, plan, (purpose,), in_process=True))
+
+
+def kinds(run: Run) -> set[type]:
+    return {type(entry) for entry in run.record.entries}
+
+
+@pytest.mark.parametrize(("slips", "verdict"), [(1, "inconclusive"), (1000, "fail")])
+def test_second_looks_decide_when_a_run_is_judged_again(slips: int, verdict: str) -> None:
+    subjects.Slips.left = slips
+    run = of_one_purpose("subjects:Slipping", "same-connection-twice")
+    assert {one.verdict for one in run.report.requirements if one.id == "R-11.2.1.2-06"} == {verdict}
+    assert {r.Repeated} <= kinds(run)
+    is_same(run)
+    entries = tuple(entry for entry in run.record.entries if not isinstance(entry, r.Repeated))
+    without = run.judged(msgspec.structs.replace(run.record, entries=entries))
+    assert any("second look" in problem for problem in without.problems)
+
+
+def test_shorter_scenarios_are_shown_and_must_show_their_failure() -> None:
+    subjects.Slips.left = 1000
+    run = of_one_purpose("subjects:Slipping", "same-connection-twice")
+    number, shorter = next((n, e) for n, e in enumerate(run.record.entries) if isinstance(e, r.Shorter))
+    for changes, problem in (
+        ({"cause": ("R-11.2.1.2-01", "x", "y")}, "no failure of this run"),
+        ({"name": "mine"}, "is not named"),
+        ({"plain": Scenario({}, ())}, "is not the scenario"),
+        ({"words": {}}, "does not show"),
+        ({"events": shorter.events[:-2], "times": shorter.times[:-2]}, "cannot be true"),
+    ):
+        entries = list(run.record.entries)
+        edit(entries, number, **changes)
+        again = run.judged(msgspec.structs.replace(run.record, entries=tuple(entries)))
+        assert any(problem in one for one in again.problems) or changes == {"words": {}}, (changes, again.problems)
+
+
+def test_failures_that_were_not_looked_at_again_for_want_of_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(campaign, "SECONDS_FOR_CONFIRMATION", 0.0)
+    subjects.Slips.left = 1000
+    run = of_one_purpose("subjects:Slipping", "same-connection-twice")
+    assert run.report.effort.measures["failures that were not run again"] >= 1
+    assert r.UsedUp in kinds(run)
+    is_same(run)
+    monkeypatch.setattr(campaign, "SECONDS_FOR_CONFIRMATION", 60.0)
+    assert any("cannot have been used up" in problem for problem in run.judged().problems)
+
+
+def test_moments_at_which_the_machine_stood_still_are_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ClockGaps, "longest", lambda gaps, events: 800)
+    subjects.Forgets.left = 1000
+    run = of_one_purpose("subjects:Forgetful", "log-of-several-components")
+    reasons = {one.reason for one in run.report.requirements if one.id == "R-10.1.4.2-26"}
+    assert reasons == {"the machine stood still for 800 ms when it was to be seen"}
+    assert r.Stood in kinds(run)
+    is_same(run)
+
+
+@pytest.mark.usefixtures("here")
+def test_a_remote_host_is_judged_by_its_own_clock(tmp_path: Any) -> None:
+    module = "ucm_cts.adapters.sdk.python.host"
+    subject = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
+    command = [sys.executable, "-m", module, subject, "--listen", f"unix:{tmp_path / 'socket'}"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            assert server.stdout is not None
+            address = server.stdout.readline().removeprefix("listening on ").strip()
+            run = run_of(address, every=60)
+        finally:
+            server.terminate()
+    assert run.record.heading.isolation == "remote"
+    is_same(run)
+    entries = list(run.record.entries)
+    later(entries, answers(entries)[0], -(10**10))
+    again = run.judged(msgspec.structs.replace(run.record, entries=tuple(entries)))
+    assert any("before the end" in problem for problem in again.problems), again.problems
+
+
+def test_profile_core_is_judged_again() -> None:
+    is_same(run_of("reference-py", profile="core", every=40, drawn=10))
 
 
 Entries = list[Any]
