@@ -156,6 +156,8 @@ class TestBare:
         [
             (("run", "--toolchain", "chain.toml"), r"pip install 'ucm-cts\[toolchain\]'"),
             (("selftest", "--toolchains", "--list"), r"pip install 'ucm-cts\[toolchain\]'"),
+            (("verify", "acme.ucmcert", "--trust", "keys"), r"pip install 'ucm-cts\[certificates\]'"),
+            (("compare", "--baseline", "a.ucmcert", "b.ucmcert"), r"pip install 'ucm-cts\[certificates\]'"),
             (("history",), r"pip install 'ucm-cts\[history\]'"),
             (("run", "reference-cpp"), "install a C[+][+] compiler, cmake and nlohmann-json3-dev"),
             (("--cmakedir",), "install a C[+][+] compiler, cmake and nlohmann-json3-dev"),

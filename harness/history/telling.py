@@ -17,7 +17,8 @@ _ORDER: tuple[Verdict, ...] = ("fail", "error", "inconclusive", "pass", "not app
 
 def told(trend: Trend) -> Iterator[str]:
     """The last runs of a product in a profile, what is not passed and since when, and what costs more than it did."""
-    yield f"{one_line(trend.product, 60)}, profile {one_line(trend.profile, 40)}: {len(trend.runs)} runs"
+    number = f"{len(trend.runs)} run{'' if len(trend.runs) == 1 else 's'}"
+    yield f"{one_line(trend.product, 60)}, profile {one_line(trend.profile, 40)}: {number}"
     if len(trend.runs) > SHOWN:
         yield f"  the last {SHOWN}:"
     width = max(len(_version(run.version)) for run in trend.runs[-SHOWN:])
