@@ -152,6 +152,7 @@ def certify(
             failed_first=False,
             resume=False,
             is_seeded=True,
+            hidden=(key, out),
         ),
         keeper,
     )

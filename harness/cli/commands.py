@@ -61,6 +61,7 @@ def cli() -> None:
 @options.toolchain_option
 @click.option("--repeat", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
 @options.in_process_option
+@options.no_sandbox_option
 @options.timeout_option
 @click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
 @click.option(
@@ -100,6 +101,7 @@ def run(
     toolchain: Path | None,
     repeat: int,
     in_process: bool,
+    no_sandbox: bool,
     timeout: float,
     memory: int,
     incident_time: float,
@@ -120,7 +122,9 @@ def run(
         _refuse(context, ("adapter", *OF_FRAMEWORKS))
         chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
         certify_toolchain(
-            ToolChainRun(toolchain, chosen, expression, out, known_failures, ics, drawn, everything, failed_first)
+            ToolChainRun(
+                toolchain, chosen, expression, out, known_failures, ics, drawn, everything, failed_first, not no_sandbox
+            )
         )
     if profile in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
@@ -135,6 +139,7 @@ def run(
             ics=ics,
             repeat=repeat,
             in_process=in_process,
+            sandbox=not no_sandbox,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,
             explore=explore,
@@ -168,6 +173,7 @@ def _refuse(context: click.Context, parameters: Sequence[str]) -> None:
 @options.adapter_argument
 @options.out_file("ucm-cts-ics.toml")
 @options.toolchain_option
+@options.no_sandbox_option
 @click.option("--force", is_flag=True, help="Write over a file that is there.")
 @click.option("--full", is_flag=True, help="With every value that can be stated, and what it means.")
 @click.option(
@@ -179,6 +185,7 @@ def ics(
     adapter: str,
     out: Path,
     toolchain: Path | None,
+    no_sandbox: bool,
     force: bool,
     full: bool,
     profile: str | None,
@@ -201,7 +208,7 @@ def ics(
     else:
         if profile in TOOLCHAIN_PROFILES:
             raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
-        with ends_like_interrupts(), Driver(locate(adapter), 0, LIMITS) as driver:
+        with ends_like_interrupts(), Driver(locate(adapter, sandbox=not no_sandbox), 0, LIMITS) as driver:
             identity, offers = driver.identity, offers_of(driver)
         write_statement(wanted, identity, adapter, offers)
     console = Output()
@@ -227,9 +234,18 @@ def explain(topic: str) -> None:
 @options.adapter_argument
 @options.ics_option
 @options.in_process_option
+@options.no_sandbox_option
 @options.seed_option
 @options.timeout_option
-def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: int | None, timeout: float) -> None:
+def replay(
+    file: Path,
+    adapter: str,
+    ics: Path | None,
+    in_process: bool,
+    no_sandbox: bool,
+    seed: int | None,
+    timeout: float,
+) -> None:
     """Run the scenario in FILE on ADAPTER and print what happens as a sequence diagram.
 
     Exit status 1 if there is any finding.
@@ -239,8 +255,8 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
             f"{file} is a model and no scenario; the report shows the command that gives it to the tool chain again"
         )
     scripts = read_scripts(file, may_overlap=True)
-    endpoint = locate(adapter, in_process)
-    monitor = Monitor(load_life_cycle(), stated_by(ics, adapter).ics)
+    endpoint = locate(adapter, in_process, sandbox=not no_sandbox)
+    monitor = Monitor(load_life_cycle(), stated_by(ics, adapter, not no_sandbox).ics)
     titles = {requirement.id: requirement.title for requirement in load_requirements()}
     console = Output()
     failed = False

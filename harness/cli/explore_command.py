@@ -49,6 +49,7 @@ FOR_INCIDENTS = 0.5
 )
 @options.ics_option
 @options.in_process_option
+@options.no_sandbox_option
 @options.timeout_option
 def explore(
     adapter: str,
@@ -59,6 +60,7 @@ def explore(
     databases: Sequence[str],
     ics: Path | None,
     in_process: bool,
+    no_sandbox: bool,
     timeout: float,
 ) -> None:
     """Generate scenarios, run them on ADAPTER, and shorten those that fail.
@@ -67,11 +69,11 @@ def explore(
     interrupted, 2 wrong use, 3 the harness failed.
     """
     console = Output()
-    statement = stated_by(ics, adapter)
+    statement = stated_by(ics, adapter, not no_sandbox)
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     incident_seconds = FOR_INCIDENTS * budget.amount if budget.is_time else Limits.incident_seconds
     limits = Limits(timeout, incident_seconds=incident_seconds)
-    endpoint = locate(adapter, in_process)
+    endpoint = locate(adapter, in_process, sandbox=not no_sandbox, hidden=[out])
     with (
         ends_like_interrupts() as interrupts,
         report_folder(out, [FILE]) as folder,

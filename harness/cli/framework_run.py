@@ -45,7 +45,7 @@ class FrameworkRun:
     """What a user wants: the arguments of ``ucm-cts run``.
 
     ``seed``: of the first run; ``is_seeded``: the user named it. ``explore``: what drawing scenarios may cost after the test
-    purposes of a whole profile. ``everything``: the summary lists everything.
+    purposes of a whole profile. ``hidden``: what hosts must not see, besides the report. ``everything``: the summary lists everything.
     """
 
     adapter: str
@@ -64,6 +64,8 @@ class FrameworkRun:
     failed_first: bool
     resume: bool
     is_seeded: bool
+    sandbox: bool = True
+    hidden: tuple[Path, ...] = ()
 
 
 class Keeper(Protocol):
@@ -88,9 +90,9 @@ def certify_framework(wanted: FrameworkRun, keeper: Keeper | None = None) -> NoR
     With a ``keeper`` scenarios that failed in earlier runs are not tried again: what is run follows from the arguments.
     """
     console = Output()
-    endpoint = locate(wanted.adapter, wanted.in_process)
+    endpoint = locate(wanted.adapter, wanted.in_process, sandbox=wanted.sandbox, hidden=[wanted.out, *wanted.hidden])
     known = known_today(wanted.known_failures)
-    statement = stated_by(wanted.ics, wanted.adapter)
+    statement = stated_by(wanted.ics, wanted.adapter, wanted.sandbox)
     offered = purposes_for(statement, wanted.profile, wanted.systematic)
     purposes = select(offered, wanted.expression) if wanted.expression else offered
     if not purposes:

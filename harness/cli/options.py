@@ -117,6 +117,9 @@ framework_profile_option = click.option(
     "--profile", type=Profile(FRAMEWORK_PROFILES), default="container", show_default=True
 )
 in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
+no_sandbox_option = click.option(
+    "--no-sandbox", is_flag=True, help="Hosts and commands run as you do: the report says 'isolation: process'."
+)
 seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
 ics_option = click.option("--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement.")
 toolchain_option = click.option(

@@ -37,6 +37,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="how long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s (default: 2s)",
     )
     group.addoption("--iut-in-process", action="store_true", help="no host process: for debuggers and sanitizers")
+    group.addoption("--iut-no-sandbox", action="store_true", help="hosts run as you do, without a sandbox")
 
 
 def _seconds(text: str) -> float:

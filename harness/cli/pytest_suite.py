@@ -102,7 +102,12 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
     with ExitStack() as cleanup:
         try:
             known = known_today(Path(list_of_known) if list_of_known else None)
-            endpoint = locate(adapter, config.getoption("--iut-in-process"))
+            endpoint = locate(
+                adapter,
+                config.getoption("--iut-in-process"),
+                sandbox=not config.getoption("--iut-no-sandbox"),
+                hidden=[out] if out else [],
+            )
             driver = cleanup.enter_context(Driver(endpoint, drawn, limits))
             _ = driver.disguise  # starts a host, which identifies the adapter
             profile = config.getoption("--iut-profile")

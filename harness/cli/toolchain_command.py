@@ -47,6 +47,7 @@ class ToolChainRun:
     seed: int
     everything: bool = False
     failed_first: bool = False
+    sandbox: bool = True
 
 
 @dataclass(frozen=True)
@@ -97,8 +98,10 @@ def _prepared(wanted: ToolChainRun) -> _Prepared:
     known = known_today(wanted.known_failures)
     statement = read_statement(wanted.ics) if wanted.ics is not None else default_statement()
     check_subject(statement, toolchain, profile)
-    processor = CommandLine(toolchain)
-    examination = examination_for(profile, statement, Renaming(wanted.seed, toolchain.dialect), expression, command)
+    processor = CommandLine(toolchain, wanted.sandbox, [wanted.out])
+    examination = examination_for(
+        profile, statement, Renaming(wanted.seed, toolchain.dialect), expression, command, sandbox=wanted.sandbox
+    )
     ids = testable(profile)
     names = [name for name, _ in examination.models]
     words = words_of(expression)

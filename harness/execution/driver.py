@@ -111,7 +111,13 @@ class Driver(Disguising):
             f"in {self._left_waiting} scenarios calls of what is removed or not started waited for ever, "
             "which the text leaves open; they fail nothing"
         )
-        said = (shadowed, bool(others)), (behind, bool(left)), (waiting, bool(self._left_waiting))
+        exposed = f"isolation: process; hosts could reach the harness and its files, because {self._hosts.no_sandbox}"
+        said = (
+            (exposed, bool(self._hosts.no_sandbox)),
+            (shadowed, bool(others)),
+            (behind, bool(left)),
+            (waiting, bool(self._left_waiting)),
+        )
         return tuple(text for text, is_so in said if is_so)
 
     def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:

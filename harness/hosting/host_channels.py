@@ -8,18 +8,20 @@ import re
 import select
 import signal
 import socket
-import subprocess
 import tempfile
 import time
 from collections import Counter
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Protocol
 
 import psutil
 
 from ucm_cts.adapters.sdk.python.template import NO_CONTROL
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.hosting.process_tree import MARK, below, end_marked, is_child_of, is_stopped, new_mark
+from ucm_cts.harness.hosting.process_tree import is_stopped, resident
+from ucm_cts.harness.hosting.sandbox import Started, start
+from ucm_cts.harness.hosting.view import View
 from ucm_cts.harness.results.foreign import clean, one_line
 from ucm_cts.harness.results.values import Incident, IncidentKind
 
@@ -33,6 +35,8 @@ _FAREWELL_SECONDS = 0.5
 _KILLED_SECONDS = 1.0
 _LOG_TAIL = 1 << 16
 _LAST_LINES = 20
+_GONE = -1
+"""In place of the number of a process that has ended before it could be found."""
 
 
 class HostUnavailable(Exception):
@@ -47,6 +51,14 @@ class HostUnavailable(Exception):
         self.incident = incident
 
 
+@dataclass(frozen=True)
+class Loaded:
+    """What was there before the first host: the number of ``processes`` and the ``memory`` in MiB that they hold together."""
+
+    processes: int = 0
+    memory: int = 0
+
+
 class Channel(Protocol):
     """The file descriptors of one host, and the operations on its process."""
 
@@ -57,8 +69,10 @@ class Channel(Protocol):
     notices: int | None
     """Readable when ``status`` may have changed."""
 
+    loaded: Loaded
+
     def processes(self) -> frozenset[psutil.Process]:
-        """The host, if it is a process of ours, and all processes that it has started."""
+        """All processes behind the endpoint, if they are ours: those of ``loaded``, the host, and what it has started."""
 
     def signal(self, number: int) -> None:
         """Send a signal to the host, if it is a process of ours that still runs."""
@@ -68,6 +82,9 @@ class Channel(Protocol):
 
     def close(self, orderly: bool) -> None:
         """Let the host go. ``orderly`` lets it end by itself for a moment; otherwise it is killed."""
+
+    def end_all(self) -> None:
+        """Kill the host and everything else behind the endpoint, if these are processes of ours."""
 
 
 class Opener(Protocol):
@@ -102,14 +119,15 @@ _NOTICE = re.compile(
 class TemplateProcess:
     """Client of ``adapters.python.template``; started on demand, and once more if it has ended."""
 
-    def __init__(self, command: list[str], name: str) -> None:
+    def __init__(self, command: list[str], name: str, view: View | None = None) -> None:
+        """``view``: what the sandbox of all hosts sees; None for no sandbox."""
         self.file = ""
         self.left_behind: Counter[str] = Counter()
         self._command = command
         self._name = name
-        self._process: subprocess.Popen[bytes] | None = None
-        self._mark = new_mark()
-        self._helpers: frozenset[psutil.Process] = frozenset()
+        self._view = view
+        self._started: Started | None = None
+        self.loaded = Loaded()
         self._control: socket.socket | None = None
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 - closed in close
         self._unread = b""
@@ -162,8 +180,13 @@ class TemplateProcess:
         return self._control.fileno() if self._control else -1
 
     def processes(self) -> frozenset[psutil.Process]:
-        """The processes of all hosts, without those that were started when the adapter was loaded."""
-        return below(self._process.pid) - self._helpers if self._process is not None else frozenset()
+        """Everything behind the endpoint."""
+        return self._started.processes() if self._started is not None else frozenset()
+
+    def end_all(self) -> None:
+        """End at once what was started; the next host comes from a new template."""
+        if self._started is not None:
+            self._stop(at_once=True)
 
     def _start(self, seconds: float) -> None:
         """Load the adapter. A process that is stopped gets ``seconds``."""
@@ -171,15 +194,18 @@ class TemplateProcess:
         self._log.truncate()
         ours, theirs = socket.socketpair()
         with theirs:
-            self._process = subprocess.Popen(
-                [*self._command, "--control", str(theirs.fileno())],
-                stdin=subprocess.DEVNULL,
-                stdout=self._log,
-                stderr=self._log,
-                env={**os.environ, MARK: self._mark},
-                pass_fds=[theirs.fileno()],
-                start_new_session=True,  # an interrupt at the terminal is for the harness
-            )
+            control = theirs.fileno()
+            try:
+                self._started = start(
+                    [*self._command, "--control", str(control)],
+                    self._view,
+                    pass_fds=[control],
+                    out=self._log,
+                    error=self._log,
+                )
+            except BaseException:
+                ours.close()
+                raise
         self._control, self._unread, self._forked, self._ended = ours, b"", [], {}
         try:
             first = self._read_first(seconds)
@@ -194,16 +220,17 @@ class TemplateProcess:
         text = _text(said)
         if word == "ready" and text is not None:
             self.file = text
-            self._helpers = below(self._process.pid)
+            helpers = self._started.processes()
+            self.loaded = Loaded(len(helpers), resident(helpers, 0))
             return
-        stopped = is_stopped(self._process.pid)
+        stopped = is_stopped(self._started.pid)
         lives = first == "" and not self._ends_soon()
         status = self._stop()
         if first is None:
             how = f": it is stopped (SIGSTOP), for {seconds:g} s" if stopped else f" within {START_SECONDS:g} s"
             raise self._unavailable("unreachable", f"'{self._name}' was not loaded{how}")
         if word == "failed" and text is not None:
-            raise WrongUse(f"'{self._name}': {text}")
+            raise WrongUse(self._explained(f"'{self._name}': {text}"))
         if first or lives or status == NO_CONTROL:
             what = "writes to" if first else "has closed"
             raise self._unavailable("unreachable", f"'{self._name}' {what} {_CONTROL_CHANNEL}")
@@ -212,19 +239,19 @@ class TemplateProcess:
 
     def _read_first(self, seconds: float) -> str | None:
         """The first line of the template; None if it does not come in time."""
-        assert self._process
+        assert self._started
         begun = time.monotonic()
         while time.monotonic() < begun + START_SECONDS:
             line = self._read_line(min(time.monotonic() + _GLANCE_SECONDS, begun + START_SECONDS))
             if line is not None:
                 return line
-            if time.monotonic() > begun + seconds and is_stopped(self._process.pid):
+            if time.monotonic() > begun + seconds and is_stopped(self._started.pid):
                 return None
         return None
 
     def _fork(self, seconds: float) -> Channel:
         assert self._control
-        assert self._process
+        assert self._started
         host_in, target = os.pipe()
         source, host_out = os.pipe()
         error, host_error = os.pipe()
@@ -233,10 +260,13 @@ class TemplateProcess:
             deadline = time.monotonic() + seconds
             while not self._forked:
                 if not self._read_notices(deadline):
-                    stopped = "is stopped (SIGSTOP)" if is_stopped(self._process.pid) else "does not answer"
+                    stopped = "is stopped (SIGSTOP)" if is_stopped(self._started.pid) else "does not answer"
                     raise TimeoutError(f"the process that forks them {stopped}, for {seconds:g} s")
-            if not is_child_of(self._forked[-1], self._process.pid):
-                raise ControlBroken(f"the adapter writes to {_CONTROL_CHANNEL}")
+            number = self._forked.pop()
+            pid = self._started.child(number)
+            while pid is None and number not in self._ended:  # else it has ended already
+                if not self._read_notices(deadline):
+                    raise ControlBroken(f"the adapter writes to {_CONTROL_CHANNEL}")
         except BaseException:
             for descriptor in (target, source, error):
                 os.close(descriptor)
@@ -244,7 +274,7 @@ class TemplateProcess:
         finally:
             for descriptor in (host_in, host_out, host_error):
                 os.close(descriptor)
-        return HostProcess(self, self._forked.pop(), source, target, error)
+        return HostProcess(self, number, _GONE if pid is None else pid, source, target, error)
 
     def _read_notices(self, deadline: float) -> bool:
         line = self._read_line(deadline)
@@ -276,30 +306,34 @@ class TemplateProcess:
         line, _, self._unread = self._unread.partition(b"\n")
         return line.decode(errors="replace")
 
-    def _stop(self) -> int:
+    def _stop(self, at_once: bool = False) -> int:
         if self._control:
             self._control.close()
             self._control = None
-        process, self._process = self._process, None
-        if process is None:
+        started, self._started = self._started, None
+        if started is None:
             return 0
-        if not _has_ended(process.pid, _FAREWELL_SECONDS):
-            for one in below(process.pid):  # it cannot end them any more
+        if at_once or not _has_ended(started.pid, _FAREWELL_SECONDS):
+            for one in started.processes():  # it cannot end them any more
                 with suppress(psutil.Error):
                     one.kill()
-        with suppress(ProcessLookupError):  # what the adapter started when it was loaded belongs to this group, too
-            os.killpg(process.pid, signal.SIGKILL)
-        status = process.wait()
-        strays = end_marked(process.pid, self._mark)
+        status, strays = started.end()
         self.left_behind.update(one_line(name) for number, name in strays.items() if number not in self._hosts)
         return status
 
     def _ends_soon(self) -> bool:
-        return self._process is None or _has_ended(self._process.pid, _FAREWELL_SECONDS)
+        return self._started is None or _has_ended(self._started.pid, _FAREWELL_SECONDS)
+
+    def _explained(self, problem: str) -> str:
+        """``problem``, and what the sandbox may have to do with it."""
+        hint = self._view.hint(problem) if self._view is not None else ""
+        return f"{problem}; {hint}" if hint else problem
 
     def _unavailable(self, kind: IncidentKind, detail: str) -> HostUnavailable:
         self._log.seek(0)
-        return HostUnavailable(Incident(kind, detail, self._log.read()[-_LOG_TAIL:].decode(errors="replace")))
+        printed = self._log.read()[-_LOG_TAIL:].decode(errors="replace")
+        hint = self._view.hint(printed) if self._view is not None else ""
+        return HostUnavailable(Incident(kind, f"{detail}; {hint}" if hint else detail, printed))
 
 
 def _has_ended(pid: int, seconds: float) -> bool:
@@ -344,15 +378,17 @@ def _texts(said: str) -> tuple[str, ...] | None:
 class HostProcess:
     """A host forked by a template."""
 
-    def __init__(self, template: TemplateProcess, pid: int, source: int, target: int, error: int) -> None:
+    def __init__(self, template: TemplateProcess, number: int, pid: int, source: int, target: int, error: int) -> None:
+        """``number`` is the process in the eyes of the template, ``pid`` in ours."""
         self._template = template
         self._open = True
         self.pid: int | None = pid
-        self._pid = pid
+        self._pid = number
         self.source = source
         self.target = target
         self.error: int | None = error
         self.notices: int | None = template.notices
+        self.loaded = template.loaded
 
     def processes(self) -> frozenset[psutil.Process]:
         return self._template.processes()
@@ -362,6 +398,9 @@ class HostProcess:
 
     def status(self, seconds: float) -> int | None:
         return self._template.status(self._pid, seconds)
+
+    def end_all(self) -> None:
+        self._template.end_all()
 
     def close(self, orderly: bool) -> None:
         if not self._open:

@@ -39,6 +39,7 @@ class Limits:
 
     ``seconds``: for an answer, without the waits of the scenario.
     ``memory``: MiB of resident memory, of the host and all processes that it has started.
+    ``processes``: how many processes a host may have, with itself.
     ``line``: bytes of one message.
     ``welcome_seconds``: from the start until it has sent ``welcome``.
     ``incident_seconds``: of one run for all incidents of its hosts.
@@ -49,6 +50,7 @@ class Limits:
     line: int = 16 * _MIB
     welcome_seconds: float = 20.0
     incident_seconds: float = 60.0
+    processes: int = 256
 
 
 @dataclass(frozen=True)
@@ -262,12 +264,22 @@ class WatchedHost:
             return
         if held <= self._limits.memory and self._checked >= self._checked_all + _CHECK_ALL_SECONDS:
             self._checked_all = self._checked
-            processes = self._channel.processes()
-            held = resident(processes, self._limits.memory)
+            before, processes = self._channel.loaded, self._channel.processes()
+            number = len(processes) - before.processes
+            if number > self._limits.processes:
+                self._fail_all(f"{number} processes, {self._limits.processes} allowed")
+            held = resident(processes, self._limits.memory + before.memory) - before.memory
             if held > self._limits.memory:
-                self.fail("memory", f"{held} MiB in {len(processes)} processes, {self._limits.memory} MiB allowed")
+                self._fail_all(f"{held} MiB in {number} processes, {self._limits.memory} MiB allowed")
         if held > self._limits.memory:
             self.fail("memory", f"{held} MiB resident, {self._limits.memory} MiB allowed")
+
+    def _fail_all(self, detail: str) -> NoReturn:
+        """End the host and everything that was started with it: one process may start others as fast as they are ended."""
+        try:
+            self.fail("memory", detail)
+        finally:
+            self._channel.end_all()
 
     def usage(self) -> Usage | None:
         try:

@@ -14,6 +14,7 @@ messages that were on their way to it are sent again to its successor.
 from __future__ import annotations
 
 import itertools
+import os
 import sys
 import time
 from collections import Counter, deque
@@ -40,6 +41,8 @@ from ucm_cts.harness.hosting.host_watch import (
 )
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
 from ucm_cts.harness.hosting.remote_hosts import Connector
+from ucm_cts.harness.hosting.sandbox import GIVEN_UP, why_none
+from ucm_cts.harness.hosting.view import view_of
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Incident, Isolation
 
@@ -194,7 +197,16 @@ class Hosts:
         """Where the adapter runs."""
         if self._endpoint.in_process:
             return "none"
-        return "remote" if self._endpoint.kind in ("tcp", "unix") else "process"
+        if self._endpoint.kind in ("tcp", "unix"):
+            return "remote"
+        return "process" if self.no_sandbox else "bubblewrap"
+
+    @property
+    def no_sandbox(self) -> str:
+        """Why local hosts run without a sandbox; empty if they have one, or are not local."""
+        if self._endpoint.in_process or self._endpoint.kind in ("tcp", "unix"):
+            return ""
+        return why_none() if self._endpoint.sandbox else GIVEN_UP
 
     @property
     def usage(self) -> Usage | None:
@@ -241,7 +253,7 @@ class Hosts:
             except CannotLoad as error:
                 raise WrongUse(f"'{self._endpoint.text}': {error}") from error
         if self._opener is None:
-            self._opener = _opener(self._endpoint)
+            self._opener = _opener(self._endpoint, self.limits.memory)
         channel = self._opener.open(max(self.limits.seconds, _FORK_SECONDS))
         self.file, self.left_behind = self._opener.file, self._opener.left_behind
         return WatchedHost(channel, self.limits)
@@ -341,9 +353,13 @@ def _explained(incident: Incident, endpoint: Endpoint) -> Incident:
     )
 
 
-def _opener(endpoint: Endpoint) -> Opener:
-    """The opener of ``endpoint``, which is not an in-process one."""
+def _opener(endpoint: Endpoint, memory: int) -> Opener:
+    """The opener of ``endpoint``, which is not an in-process one. ``memory``: MiB that files of its hosts may take."""
     if endpoint.kind in ("tcp", "unix"):
         return Connector(endpoint)
-    module = "ucm_cts.adapters.sdk.python.host" if endpoint.kind == "python" else "ucm_cts.harness.hosting.spawner"
-    return TemplateProcess([sys.executable, "-X", "faulthandler", "-m", module, endpoint.target], endpoint.text)
+    module = "ucm_cts.adapters.sdk.python." + ("host" if endpoint.kind == "python" else "spawner")
+    command = [sys.executable, "-X", "faulthandler", "-m", module, endpoint.target]
+    if not endpoint.sandbox or why_none():
+        return TemplateProcess(command, endpoint.text)
+    needed = [endpoint.target] if os.path.isabs(endpoint.target) else []
+    return TemplateProcess(command, endpoint.text, view_of(needed, hidden=endpoint.hidden, mebibytes=memory))

@@ -1,6 +1,7 @@
 """From the text that names an adapter to the endpoint behind which it is found.
 
-Nothing is started here, and only short names import anything: an adapter that breaks when it is loaded breaks a host.
+Nothing is imported here but what is bundled: what a package publishes under a short name is known from its metadata or, if that
+is not enough, from a process in a sandbox (``published_names``). An adapter that breaks when it is loaded breaks a host.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import importlib.machinery
 import importlib.util
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -18,6 +19,7 @@ from typing import Literal
 from urllib.parse import urlsplit
 
 from ucm_cts.adapters.sdk.python.loading import current_name
+from ucm_cts.harness.hosting.published_names import Meaning, NoMeaning, meaning_of
 
 GROUP = "ucm_cts.adapters"
 """The entry point group in which packages publish short names of adapters."""
@@ -49,26 +51,30 @@ class Endpoint:
     ``target``: ``python``: a class, a module with ``answer``, or the path of an extension module; ``executable``: an absolute path;
     ``tcp``: ``HOST:PORT``; ``unix``: a path.
     ``in_process``: load it into the harness process, for debuggers.
+    ``sandbox``: start it in a sandbox, where there are sandboxes.
+    ``hidden``: files and folders that it must not see there.
     """
 
     text: str
     kind: EndpointKind
     target: str
     in_process: bool = False
+    sandbox: bool = True
+    hidden: tuple[str, ...] = ()
 
 
-def published_statement(text: str) -> Path | None:
+def published_statement(text: str, sandbox: bool = True) -> Path | None:
     """The statement that goes with the short name ``text``, if one is published. Raises ``WrongUse``."""
     entry = _published(STATEMENTS).get(text)
     if entry is None:
         return None
-    found = _load(entry)
-    if not isinstance(found, str | Path):
-        raise WrongUse(f"'{entry.value}' is to be the path of a statement, and is a {type(found).__name__}")
-    return Path(found)
+    meaning = _meaning_of(entry, sandbox)
+    if meaning.path is None:
+        raise WrongUse(f"'{entry.value}' is to be the path of a statement, and is a {meaning.type}")
+    return Path(meaning.path)
 
 
-def locate(text: str, in_process: bool = False) -> Endpoint:
+def locate(text: str, in_process: bool = False, *, sandbox: bool = True, hidden: Iterable[str | Path] = ()) -> Endpoint:
     """The endpoint that ``text`` names. Raises ``WrongUse``."""
     published = _published(GROUP)
     if not text:
@@ -76,12 +82,12 @@ def locate(text: str, in_process: bool = False) -> Endpoint:
             f"no ADAPTER is named: which framework is meant? {_what_there_is(text, published)}. "
             "docs/adapter-python.md, adapter-cpp.md and adapter-java.md say how to write one for your framework"
         )
-    endpoint = _follow(published[text]) if text in published else _parse(text, published)
+    endpoint = _follow(published[text], sandbox) if text in published else _parse(text, published)
     if in_process and endpoint.kind != "python":
         raise WrongUse(
             f"'{text}' cannot run in the harness process: that takes a Python adapter or an extension module"
         )
-    return replace(endpoint, text=text, in_process=in_process)
+    return replace(endpoint, text=text, in_process=in_process, sandbox=sandbox, hidden=tuple(map(str, hidden)))
 
 
 def namesakes(endpoint: Endpoint, file: str) -> Iterator[str]:
@@ -116,23 +122,21 @@ def _published(group: str) -> dict[str, EntryPoint]:
     return published
 
 
-def _follow(entry: EntryPoint) -> Endpoint:
+def _follow(entry: EntryPoint, sandbox: bool) -> Endpoint:
     """Classes and modules are loaded by the host; for other texts the file system decides which endpoint they name."""
     if not entry.attr:
         return Endpoint(entry.name, "python", entry.value)
-    found = _load(entry)
-    if isinstance(found, str | Path):
-        return _parse(str(found), {})
+    path = _meaning_of(entry, sandbox).path
+    if path is not None:
+        return _parse(path, {})
     return Endpoint(entry.name, "python", f"{entry.module}:{entry.attr}")
 
 
-def _load(entry: EntryPoint) -> object:
+def _meaning_of(entry: EntryPoint, sandbox: bool) -> Meaning:
     try:
-        return entry.load()
-    except (Exception, SystemExit) as error:
-        raise WrongUse(
-            f"'{entry.name}' stands for {entry.value}, which fails: {type(error).__name__}: {error}"
-        ) from error
+        return meaning_of(entry.module, entry.attr, sandbox)
+    except NoMeaning as problem:
+        raise WrongUse(f"'{entry.name}' stands for {entry.value}, which fails: {problem}") from None
 
 
 def _parse(text: str, published: Mapping[str, EntryPoint]) -> Endpoint:

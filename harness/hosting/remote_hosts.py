@@ -9,7 +9,7 @@ from collections import Counter
 
 import psutil
 
-from ucm_cts.harness.hosting.host_channels import Channel, HostUnavailable
+from ucm_cts.harness.hosting.host_channels import Channel, HostUnavailable, Loaded
 from ucm_cts.harness.hosting.locate import Endpoint
 from ucm_cts.harness.results.values import Incident
 
@@ -59,6 +59,7 @@ class Connection:
     pid: int | None = None
     error: int | None = None
     notices: int | None = None
+    loaded = Loaded()
 
     def __init__(self, connection: socket.socket) -> None:
         connection.setblocking(False)
@@ -75,6 +76,9 @@ class Connection:
 
     def status(self, seconds: float) -> int | None:
         return None
+
+    def end_all(self) -> None:
+        """A remote host runs on."""
 
     def close(self, orderly: bool) -> None:
         if self._open:

@@ -19,12 +19,12 @@ LARGEST = 256 * 1024
 """Bytes a statement may have."""
 
 
-def stated_by(path: Path | None, adapter: str) -> Statement:
+def stated_by(path: Path | None, adapter: str, sandbox: bool = True) -> Statement:
     """The statement in the file at ``path``, else the one published with ``adapter``, else the default.
 
     Raises ``DocumentError``.
     """
-    path = path or published_statement(adapter)
+    path = path or published_statement(adapter, sandbox)
     return read_statement(path) if path is not None else default_statement()
 
 

@@ -234,4 +234,5 @@ class ToolChainCampaign:
             facts=sum(1 for fact in self._facts if fact.requirement),
             statement=self._plan.statement,
             effort=Effort(dict(self._measures.most_common())),
+            isolation=self._processor.isolation,
         )

@@ -16,7 +16,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.results.foreign import one_line
-from ucm_cts.harness.results.values import Incident, Processed, ToolChainReport
+from ucm_cts.harness.results.values import Incident, Isolation, Processed, ToolChainReport
 from ucm_cts.harness.toolchains.commands.description import Task, ToolChain
 from ucm_cts.harness.toolchains.commands.processing import SEVERAL, Processor, Response, oddity, response_to
 
@@ -57,7 +57,7 @@ class ToolChainRecord(Value, frozen=True, kw_only=True):
     ``toolchain``: its description with the command for ``task`` only, and without the folder where it was.
     ``started``, ``seconds``: when the run began, ISO 8601, and how long it took.
     ``jobs``: how many calls there could be at a time.
-    ``warnings``: what the vendor was told of how the calls went.
+    ``warnings``: what the vendor was told of how the calls went. ``isolation``: where the commands ran.
     ``commands``, ``texts``: what calls refer to, each once, in the order of the first references.
     """
 
@@ -71,6 +71,7 @@ class ToolChainRecord(Value, frozen=True, kw_only=True):
     commands: tuple[tuple[str, ...], ...]
     texts: tuple[str, ...]
     warnings: tuple[str, ...] = ()
+    isolation: Isolation = "process"
 
 
 def fingerprint(text: str) -> str:
@@ -86,6 +87,10 @@ class Recorder:
         self._writing = threading.Lock()
         self._first: float | None = None
         self._kept: list[tuple[float, float, str, list[Response]]] = []
+
+    @property
+    def isolation(self) -> Isolation:
+        return self._processor.isolation
 
     def at_once(self, task: Task) -> int:
         return self._processor.at_once(task)
@@ -153,6 +158,7 @@ class Recorder:
             commands=tuple(commands),
             texts=tuple(texts),
             warnings=self.warnings(),
+            isolation=self.isolation,
         )
 
 
@@ -183,6 +189,10 @@ class Replay:
         self._missing_again: list[str] = []
         self._altered: list[str] = []
         self._impossible: list[str] = []
+
+    @property
+    def isolation(self) -> Isolation:
+        return self._record.isolation
 
     def at_once(self, task: Task) -> int:
         return SEVERAL

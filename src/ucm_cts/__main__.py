@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 
@@ -16,6 +17,16 @@ def _open_standard_streams() -> None:
             os.open(os.devnull, os.O_RDWR)  # it gets the lowest free number
         if getattr(sys, name) is None:
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - lives as long as we do
+
+
+def _prefer_what_is_installed() -> None:
+    """Search modules where adapters lie, which is the current folder and ``PYTHONPATH``, after those that are installed.
+
+    An adapter beside which a file ``rich.py`` lies would else run in the harness.
+    """
+    theirs = {"", os.getcwd(), *os.environ.get("PYTHONPATH", "").split(os.pathsep)}
+    sys.path.sort(key=lambda place: place in theirs)
+    os.environ.setdefault("HYPOTHESIS_NO_PLUGINS", "1")  # it would import what other packages publish for it
 
 
 def main() -> None:
@@ -31,6 +42,8 @@ def main() -> None:
         print(folder)
         return
     _open_standard_streams()
+    with suppress(OSError):  # there is no current folder, which the command line says
+        _prefer_what_is_installed()
     try:
         from ucm_cts.harness.cli.commands import main as command_line
     except KeyboardInterrupt:

@@ -57,7 +57,7 @@ def calls(here: Path) -> Iterator[int]:
 
 def interrupted(calls: int, first: signal.Signals, *options: str, again: int = 0) -> tuple[int, str, str, list[str]]:
     """Exit status, outputs and the children of a run that gets the signal once the framework waits, and ``again`` so often."""
-    run = "run", "waiting:Waits", "--timeout", "60", "--out", "out", *options
+    run = "run", "waiting:Waits", "--no-sandbox", "--timeout", "60", "--out", "out", *options
     command = ["env", "--default-signal", sys.executable, "-m", "ucm_cts", *run]  # a job in the background ignores some
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert select.select([calls], [], [], 60)[0], "the framework was never called"
@@ -98,7 +98,7 @@ def test_reports_of_interrupted_runs_are_not_compared_nor_published(here: Path, 
 
 
 def test_interrupted_series_goes_on_where_it_stopped(here: Path, calls: int) -> None:
-    assert ucm_cts("run", "waiting:Waits", *SELECTION, "--seed", "5", "--out", "whole").status == 0
+    assert ucm_cts("run", "waiting:Waits", "--no-sandbox", *SELECTION, "--seed", "5", "--out", "whole").status == 0
     per_run = (here / "made").stat().st_size
     (here / "made").unlink()
     (here / "until").write_text(str(2 * per_run + per_run // 2))
@@ -111,7 +111,7 @@ def test_interrupted_series_goes_on_where_it_stopped(here: Path, calls: int) -> 
     assert {path.name for path in (here / "out" / "runs").iterdir()} == {"part.json", "run-1.json", "run-2.json"}
     (here / "until").unlink()
     (here / "made").unlink()
-    again = ("run", "waiting:Waits", "--out", "out", "--timeout", "60", "--repeat", "4", "--resume")
+    again = ("run", "waiting:Waits", "--no-sandbox", "--out", "out", "--timeout", "60", "--repeat", "4", "--resume")
     for options, problem in (
         (["-k", "R-11.2.2.1-13"], "were of another suite, adapter, statement, selection or limits"),
         ([*SELECTION, "--memory", "2000"], "were of another suite, adapter, statement, selection or limits"),
@@ -132,7 +132,7 @@ def test_interrupted_series_goes_on_where_it_stopped(here: Path, calls: int) -> 
 
 def test_series_of_another_product_is_not_resumed(here: Path, calls: int) -> None:
     (here / "waiting.py").write_text(WAITS_AT + "    product = 'One'\n")
-    ucm_cts("run", "waiting:Waits", *SELECTION, "--out", "whole")
+    ucm_cts("run", "waiting:Waits", "--no-sandbox", *SELECTION, "--out", "whole")
     (here / "until").write_text(str((here / "made").stat().st_size + 1))
     (here / "made").unlink()
     interrupted(calls, signal.SIGINT, *SELECTION, "--repeat", "2")
@@ -140,7 +140,17 @@ def test_series_of_another_product_is_not_resumed(here: Path, calls: int) -> Non
     (here / "waiting.py").write_text(WAITS_AT + "    product = 'Another'\n")
     before = json.loads((here / "out" / "runs" / "run-1.json").read_text())
     outcome = ucm_cts(
-        "run", "waiting:Waits", *SELECTION, "--timeout", "60", "--repeat", "2", "--out", "out", "--resume"
+        "run",
+        "waiting:Waits",
+        "--no-sandbox",
+        *SELECTION,
+        "--timeout",
+        "60",
+        "--repeat",
+        "2",
+        "--out",
+        "out",
+        "--resume",
     )
     assert outcome.status == 2
     assert "are of another product, 'Another 1'; leave out --resume" in outcome.err
@@ -161,7 +171,17 @@ def test_interrupted_pytest_session_says_so_in_its_report(here: Path, calls: int
         "--pyargs",
         "ucm_cts.suite",
     ]
-    options = ["--iut", "waiting:Waits", "-k", "whole-life or many-members", "--iut-out", "out", "--iut-timeout", "60"]
+    options = [
+        "--iut",
+        "waiting:Waits",
+        "--no-sandbox",
+        "-k",
+        "whole-life or many-members",
+        "--iut-out",
+        "out",
+        "--iut-timeout",
+        "60",
+    ]
     with subprocess.Popen([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert select.select([calls], [], [], 60)[0], "the framework was never called"
         process.send_signal(signal.SIGINT)

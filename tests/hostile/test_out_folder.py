@@ -257,7 +257,7 @@ def test_attack_during_the_run_harms_nobody_and_loses_nothing(
     monkeypatch.setenv("REPORT", str(here / "out"))
     monkeypatch.setenv("FOREIGN", str(foreign))
     (here / "attacking.py").write_text(ATTACKER.format(what=what))
-    outcome = ucm_cts("run", "attacking:Attacker", "-k", "R-11.2.2.1-13", "--out", "out")
+    outcome = ucm_cts("run", "attacking:Attacker", "-k", "R-11.2.2.1-13", "--out", "out", "--no-sandbox")
     assert is_untouched(foreign)
     assert "✓ CONFORMANT" in outcome.out
     assert len(outcome.err.splitlines()) == (outcome.status == 3)

@@ -3,28 +3,30 @@
 from __future__ import annotations
 
 import os
-import resource
 import select
 import shutil
 import signal
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-import psutil
-
-from ucm_cts.harness.hosting.process_tree import MARK, below, end_marked, new_mark, resident
+from ucm_cts.harness.hosting.process_tree import resident
+from ucm_cts.harness.hosting.sandbox import Started, start
+from ucm_cts.harness.hosting.view import View
 from ucm_cts.harness.results.values import Incident
 
 _SAMPLE_SECONDS = 0.05
 _FILES_SAMPLE_SECONDS = 0.2
 _RARELY = 10
 """A sample of the files is taken after so many times the time that the last one took."""
+
+MOST_PROCESSES = 512
+"""How many processes a run may have at a time."""
 
 MOST_FILES, MOST_BYTES = 20_000, 256 << 20
 """How many files a run may write in its folder, and how many bytes in all of them."""
@@ -75,11 +77,13 @@ def run(
     flood: int = 1 << 24,
     apart: bool = False,
     environment: Mapping[str, str] | None = None,
+    view: View | None = None,
+    own_statuses: Collection[int] = (),
 ) -> Ended:
-    """Run a command in a process group of its own, and end all its processes afterwards.
+    """Run a command in a sandbox with ``view``, or in a process group of its own, and end all its processes afterwards.
 
-    A process that has left the group is found by its environment; one that has left both is not. Never raises for what
-    the command does.
+    Without a sandbox, a process that has left the group is found by its environment; one that has left both is not. Never raises
+    for what the command does.
 
     ``words``: the command and its arguments.
     ``folder``: the working directory.
@@ -88,31 +92,31 @@ def run(
     ``flood``: the bytes of output that end the run. Files in ``folder`` beyond ``MOST_FILES`` and ``MOST_BYTES`` end it as well.
     ``apart``: whether errors are returned apart from output.
     ``environment``: the environment; that of this process if None.
+    ``view``: what the command sees besides ``folder``; everything, and without a sandbox, if None.
+    ``own_statuses``: exit statuses that are the command's own although a shell gives them to what a signal has killed.
     """
-    mark = new_mark()
+    if view is not None and not _can_be_run(words[0], folder, environment):
+        return _not_run(words, "No such file or directory, or not executable")
     try:
-        process = subprocess.Popen(
+        started = start(
             words,
-            cwd=folder,
-            env={**(os.environ if environment is None else environment), MARK: mark},
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE if apart else subprocess.STDOUT,
-            start_new_session=True,
+            view.writing(folder) if view is not None else None,
+            environment=environment,
+            folder=folder,
+            error=subprocess.PIPE if apart else subprocess.STDOUT,
+            largest_file=MOST_BYTES,
         )
     except OSError as error:
-        return Ended(None, "", incident=Incident("unreachable", f"{words[0]} cannot be run: {error.strerror}"))
-    with suppress(OSError, ValueError):  # it has ended
-        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (MOST_BYTES, MOST_BYTES))
-    with process:
-        supervisor = _Supervisor(process, limits, kept, flood, folder)
+        return _not_run(words, str(error.strerror))
+    with started.process as process:
+        supervisor = _Supervisor(started, limits, kept, flood, folder)
         try:
             incident = supervisor.until_the_end() or supervisor.excess_of_files()
         finally:
-            with suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-            status = process.wait()
-            end_marked(process.pid, mark)
+            status, _ = started.end()
+            said = process.returncode
+    if view is not None and status < 0 and said in own_statuses:
+        status = said
     if incident is None and status == -signal.SIGXFSZ:
         incident = _too_much()
     if incident is None and shutil.disk_usage(folder).free < _LEAST_FREE:
@@ -122,13 +126,23 @@ def run(
     return Ended(status if incident is None else None, *supervisor.printed, incident)
 
 
+def _not_run(words: Sequence[str], why: str) -> Ended:
+    return Ended(None, "", incident=Incident("unreachable", f"{words[0]} cannot be run: {why}"))
+
+
+def _can_be_run(program: str, folder: Path, environment: Mapping[str, str] | None) -> bool:
+    path = (os.environ if environment is None else environment).get("PATH")
+    return shutil.which(program if "/" not in program else str(folder / program), path=path) is not None
+
+
 def _too_much() -> Incident:
     return Incident("flood", f"more than {MOST_BYTES // _MIB} MiB of files")
 
 
 class _Supervisor:
-    def __init__(self, process: subprocess.Popen[bytes], limits: Limits, kept: int, flood: int, folder: Path) -> None:
-        self._process, self._limits, self._folder = process, limits, folder
+    def __init__(self, started: Started, limits: Limits, kept: int, flood: int, folder: Path) -> None:
+        process = started.process
+        self._started, self._process, self._limits, self._folder = started, process, limits, folder
         self._kept, self._flood, self._total = kept, flood, 0
         self._sampled = time.monotonic()
         self._deadline = self._sampled + limits.seconds
@@ -154,8 +168,8 @@ class _Supervisor:
                 return Incident("flood", f"more than {self._flood // _MIB} MiB of output")
             if time.monotonic() > self._deadline:
                 return Incident("hang", f"no end after {self._limits.seconds:g} s")
-            if self._exceeds_memory():
-                return Incident("memory", f"more than {self._limits.memory} MiB of memory")
+            if (excess := self._excess_of_memory()) is not None:
+                return excess
             if time.monotonic() > self._sample_files_at and (excess := self.excess_of_files()) is not None:
                 return excess
         return None
@@ -191,13 +205,20 @@ class _Supervisor:
                 self._poll.unregister(source)
                 self._open.remove(source)
 
-    def _exceeds_memory(self) -> bool:
+    def _excess_of_memory(self) -> Incident | None:
+        """What is too much of memory or of processes."""
         now = time.monotonic()
         if now < self._sampled + _SAMPLE_SECONDS:
-            return False
+            return None
         self._sampled = now
-        tree = {psutil.Process(self._process.pid), *below(self._process.pid)} if self._process.poll() is None else set()
-        return resident(tree, self._limits.memory) > self._limits.memory
+        if self._process.poll() is not None:
+            return None
+        tree = self._started.processes()
+        if len(tree) > MOST_PROCESSES:
+            return Incident("memory", f"more than {MOST_PROCESSES} processes")
+        if resident(tree, self._limits.memory) > self._limits.memory:
+            return Incident("memory", f"more than {self._limits.memory} MiB of memory")
+        return None
 
 
 _BLOCK = 512

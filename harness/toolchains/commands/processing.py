@@ -8,14 +8,16 @@ import shutil
 import signal
 import threading
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
 from ucm_cts.adapters.reference.toolchain.program import Program
-from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Incident, Processed
+from ucm_cts.harness.hosting.sandbox import GIVEN_UP, why_none
+from ucm_cts.harness.hosting.view import view_of
+from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Incident, Isolation, Processed
 from ucm_cts.harness.toolchains.commands.bounded import Ended, own_folder, run
 from ucm_cts.harness.toolchains.commands.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
 from ucm_cts.harness.toolchains.commands.expressions import matches
@@ -66,6 +68,10 @@ class Processor(Protocol):
     def at_once(self, task: Task) -> int:
         """How many models one call of ``process_all`` should get."""
 
+    @property
+    def isolation(self) -> Isolation:
+        """Where the tool chain runs."""
+
     def warnings(self) -> tuple[str, ...]:
         """What the vendor should know of how the calls went, a sentence each."""
 
@@ -73,9 +79,10 @@ class Processor(Protocol):
 class CommandLine:
     """A tool chain behind its command lines; each call gets a folder and a process group of its own."""
 
-    def __init__(self, toolchain: ToolChain) -> None:
-        """Raises ``DocumentError`` if a program is not there."""
+    def __init__(self, toolchain: ToolChain, sandbox: bool = True, hidden: Iterable[str | Path] = ()) -> None:
+        """``hidden``: what the commands must not see. Raises ``DocumentError`` if a program is not there."""
         self._toolchain = toolchain
+        self._no_sandbox = why_none() if sandbox else GIVEN_UP
         self._together_calls: Counter[str] = Counter()
         self._counting = threading.Lock()
         self._programs: dict[Task, tuple[Command, list[str]]] = {}
@@ -83,6 +90,14 @@ class CommandLine:
             command = toolchain.command_for(task)
             if command is not None:
                 self._programs[task] = (command, program(toolchain, command))
+        found = [words[0] for _, words in self._programs.values() if "/" in words[0]]
+        needed = [*found, *([toolchain.folder] if toolchain.folder else [])]
+        memory = toolchain.memory
+        self._view = None if self._no_sandbox else view_of(needed, hidden=hidden, mebibytes=memory)
+
+    @property
+    def isolation(self) -> Isolation:
+        return "process" if self._no_sandbox else "bubblewrap"
 
     def at_once(self, task: Task) -> int:
         return SEVERAL if self._toolchain.takes_several(task) else 1
@@ -113,7 +128,8 @@ class CommandLine:
 
     def warnings(self) -> tuple[str, ...]:
         calls = self._together_calls.total()
-        return tuple(
+        exposed = f"isolation: process; commands could reach the harness and its files, because {self._no_sandbox}"
+        return (exposed,) * bool(self._no_sandbox) + tuple(
             f"{number} of {calls} calls with several models {why}: their models were checked again, one by one, which is slow; "
             f"{_MENDS[why]}"
             for why, number in self._together_calls.items()
@@ -127,7 +143,7 @@ class CommandLine:
             for file, (_, text) in zip(files, models, strict=True):
                 file.write_text(text, encoding="utf-8")
             filled = [str(f) for word in words for f in (files if word == MODELS else (word,))]
-            ended = run(filled, folder, self._toolchain, kept=_OUTPUT_OF_SEVERAL)
+            ended = self._run(filled, folder, command, kept=_OUTPUT_OF_SEVERAL)
         printed: dict[str, list[str]] = {file.name: [] for file in files}
         for name, _, line in diagnostics_in(ended.output, command.diagnostic, printed):
             printed[name].append(line.replace(str(folder / name), MODEL_FILE).replace(name, MODEL_FILE))
@@ -144,6 +160,9 @@ class CommandLine:
             responses.append(Response(processed, not lines, named_lines(output, command.diagnostic, text)))
         return responses
 
+    def _run(self, words: Sequence[str], folder: Path, command: Command, kept: int = _OUTPUT) -> Ended:
+        return run(words, folder, self._toolchain, kept=kept, view=self._view, own_statuses=command.refuses)
+
     def process(self, task: Task, name: str, text: str, again_for: str = "") -> Response:
         try:
             return self._alone(task, name, text)
@@ -159,7 +178,7 @@ class CommandLine:
             model.write_text(text, encoding="utf-8")
             out.mkdir()
             filled = [_filled(word, str(model), str(out)) for word in words]
-            ended = run(filled, folder, self._toolchain)
+            ended = self._run(filled, folder, command)
             output = ended.output.replace(f"{folder}/", "")
             shown = tuple(_filled(word, MODEL_FILE, OUT_FOLDER) for word in _by_hand(command, words))
             incident = ended.incident or oddity(ended.status, output, command)
@@ -197,6 +216,8 @@ class InProcess:
 
     def __init__(self, program: Program) -> None:
         self._program = program
+
+    isolation: Isolation = "none"
 
     def at_once(self, task: Task) -> int:
         return SEVERAL

@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.hosting.sandbox import why_none
+from ucm_cts.harness.hosting.view import view_of
 from ucm_cts.harness.toolchains.commands import bounded
 from ucm_cts.harness.toolchains.commands.bounded import Ended
 from ucm_cts.harness.toolchains.cpp.disguise import TAG, Disguise
@@ -25,12 +27,14 @@ _LIMITED = 'ulimit -v "$0"; ulimit -f "$1"; ulimit -c 0; ulimit -s "$(ulimit -H 
 class Compiler(Value, frozen=True):
     """The compiler: ``command`` is its name and its options, such as folders of headers.
 
-    ``seconds`` is how long one run may take, ``memory`` how many MiB.
+    ``seconds`` is how long one run may take, ``memory`` how many MiB. ``sandbox``: it, and what it makes, run in a sandbox where
+    there is one; they see what their words name.
     """
 
     command: tuple[str, ...] = ("g++",)
     seconds: float = 60.0
     memory: int = 4096
+    sandbox: bool = True
 
 
 @dataclass(frozen=True)
@@ -105,12 +109,27 @@ def run(words: Sequence[str], folder: Path, compiler: Compiler) -> Ended:
     limits = [str(compiler.memory * 1024), str(_OUTPUT * 16 // 512)]
     shell = ["/bin/sh", "-c", _LIMITED, *limits, *words]
     environment = {**os.environ, "LC_ALL": "C.UTF-8"}
-    ended = bounded.run(shell, folder, compiler, kept=_OUTPUT, flood=_OUTPUT * 4, apart=True, environment=environment)
+    view = view_of(_paths_in(words), mebibytes=compiler.memory) if compiler.sandbox and not why_none() else None
+    ended = bounded.run(
+        shell,
+        folder,
+        compiler,
+        kept=_OUTPUT,
+        flood=_OUTPUT * 4,
+        apart=True,
+        environment=environment,
+        view=view,
+    )
     if ended.incident and ended.incident.kind == "unreachable":
         raise NoCompiler(ended.problem)
     if ended.status == 127 and not can_be_run(words[0]):
         raise NoCompiler(f"no program '{words[0]}' can be run; install it or name another compiler")
     return ended
+
+
+def _paths_in(words: Sequence[str]) -> list[str]:
+    """The files and folders that options and arguments name."""
+    return [word[word.index("/") :] for word in words if "/" in word and "\0" not in word]
 
 
 def can_be_run(program: str) -> bool:

@@ -63,6 +63,7 @@ def test_conformant_framework_without_a_terminal(here: Path) -> None:
     result = [line for line in rest if not re.match(r"\d+ s: ", line)]  # a line of progress each ten seconds
     assert len(result) == 5
     assert result[0].startswith("✓ CONFORMANT")
+    assert result[2].startswith("  hosts ran ")
     assert result[-1] == rest[-1] == "report  new/out/report.html"
     assert not {"\x1b", "\r"} & set(done.stdout)
     report = report_of(here / "new/out")
@@ -167,7 +168,7 @@ def test_wrong_use_has_status_2_and_a_message(here: Path, command: str, message:
 
 def test_report_that_finds_its_folder_gone_is_kept_elsewhere(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("REPORT", str(here / "out"))
-    outcome = ucm_cts("run", "subjects:Vandal", "-k", REQUIREMENT, "--out", "out")
+    outcome = ucm_cts("run", "subjects:Vandal", "--no-sandbox", "-k", REQUIREMENT, "--out", "out")
     assert outcome.status == 3
     assert len(outcome.err.splitlines()) == 1
     match = re.fullmatch(r"ucm-cts: the report cannot be written: 'out': .+; it is in '(.+)'\n", outcome.err)
@@ -204,7 +205,9 @@ def verdicts(report: dict[str, Any]) -> dict[str, str]:
 def test_a_seed_repeats_a_run(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def run(name: str, seed: int) -> tuple[dict[str, Any], set[str]]:
         monkeypatch.setenv("CALL_RECORD", str(here / name))
-        outcome = ucm_cts("run", "subjects:Listening", "-k", "11.2.1", "--seed", str(seed), "--out", f"{name}-out")
+        outcome = ucm_cts(
+            "run", "subjects:Listening", "--no-sandbox", "-k", "11.2.1", "--seed", str(seed), "--out", f"{name}-out"
+        )
         assert f"seed {seed}\n" in outcome.out
         report = report_of(here / f"{name}-out")
         del report["started"], report["seconds"], report["seconds_by_clause"], report["seed"]
@@ -266,7 +269,9 @@ Path("loaded").touch()
 def test_aborted_series_keeps_its_results(here: Path, monkeypatch: pytest.MonkeyPatch, what: str, why: str) -> None:
     monkeypatch.setenv("PYTHONPATH", str(here))
     Path("otherwise.py").write_text(OTHERWISE_LATER.format(what=what))
-    outcome = ucm_cts("run", "otherwise:Later", "-k", "self-connection", "--repeat", "3", "--out", "out")
+    outcome = ucm_cts(
+        "run", "otherwise:Later", "--no-sandbox", "-k", "self-connection", "--repeat", "3", "--out", "out"
+    )
     assert outcome.status == 1
     assert why in outcome.out
     report = report_of(here / "out")
@@ -287,7 +292,7 @@ def test_selection_checks_only_matching_purposes(here: Path) -> None:
 
 def test_in_process_starts_no_host(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CALL_RECORD", str(here / "calls"))
-    for options, own in (["--in-process"], True), ([], False):
+    for options, own in (["--in-process"], True), (["--no-sandbox"], False):
         (here / "calls").write_text("")
         ucm_cts("run", "subjects:Listening", "-k", REQUIREMENT, "--out", "out", *options)
         assert {line.split()[0] == str(os.getpid()) for line in (here / "calls").read_text().splitlines()} == {own}

@@ -343,6 +343,7 @@ def short_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     executable = speakers.wrap(speakers.SaysGarbage, tmp_path)
     (tmp_path / "friendly.py").write_text(f"from pathlib import Path\nEXECUTABLE = Path({str(executable)!r})\n")
     monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
 
 
 @pytest.mark.usefixtures("short_names")

@@ -46,7 +46,7 @@ def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
 
 
 def test_what_a_loaded_machine_shows_once_is_asked_again(here: Path) -> None:
-    outcome = ucm_cts("ics", "subjects:SlowAtFirst", "--full")
+    outcome = ucm_cts("ics", "subjects:SlowAtFirst", "--no-sandbox", "--full")
     assert (outcome.status, outcome.err) == (0, "")
     assert (here / "made").stat().st_size == 3, "it waited for ever, then in vain, and then answered"
     statement = read_statement(here / "ucm-cts-ics.toml")

@@ -1,4 +1,4 @@
-"""A template for executable adapters: ``python -m ucm_cts.harness.hosting.spawner PATH --control DESCRIPTOR``.
+"""A template for executable adapters: ``python -m ucm_cts.adapters.sdk.python.spawner PATH --control DESCRIPTOR``.
 
 The harness itself starts nothing: this small process forks quickly, reports how hosts end, and takes them along when
 it or the harness ends, in every case.
