@@ -44,7 +44,7 @@ def assured(
         absent = archive.CHALLENGE not in contents.members
         lacking = Problem("challenge", "it says that it is challenged, and has no challenge")
         return Assured("self-declared", (lacking,) if absent else ())
-    problems = tuple(_wrong(contents, claims, answer, trust, auditors))
+    problems = tuple(_wrong(contents, claims, answer, signers, trust, auditors))
     if problems:
         return Assured("self-declared", problems, answer.challenge.number)
     number = answer.challenge.number
@@ -74,7 +74,14 @@ def _witnessed(signers: tuple[TrustedKey, ...], trust: Trust, auditors: Trust) -
     return Assured("witnessed")
 
 
-def _wrong(contents: Contents, claims: Claims, answer: Answered, trust: Trust, auditors: Trust) -> Iterator[Problem]:
+def _wrong(
+    contents: Contents,
+    claims: Claims,
+    answer: Answered,
+    signers: tuple[TrustedKey, ...],
+    trust: Trust,
+    auditors: Trust,
+) -> Iterator[Problem]:
     by_auditor, wrong = answer.by_auditor.who(auditors, "the auditor's answer")
     yield from wrong
     if not by_auditor and not wrong:
@@ -88,8 +95,7 @@ def _wrong(contents: Contents, claims: Claims, answer: Answered, trust: Trust, a
             )
     by_vendor, wrong = answer.by_vendor.who(trust, "the commitment")
     yield from wrong
-    assert contents.envelope is not None
-    if not wrong and not {key.key.keyid for key in by_vendor} & contents.envelope.signatures.keys():
+    if not wrong and not {key.key.keyid for key in by_vendor} & {key.key.keyid for key in signers}:
         yield Problem(
             "commitment",
             "the commitment was not signed with a key that signed the certificate, or not with one that you trust",

@@ -5,9 +5,11 @@ from __future__ import annotations
 import functools
 import io
 import stat
+import tempfile
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -277,6 +279,12 @@ def intact(kind: str = "plain") -> bytes:
             return certificate(run_of(report, assurance="challenged", challenge=answer), [key_of("acme")])
         case "witnessed":
             return certificate(run_of(report, assurance="witnessed"), [key_of("tuev")])
+        case "with models":
+            with tempfile.TemporaryDirectory() as folder:
+                (Path(folder) / "core.xml").write_text("<a/>")
+                statement = msgspec.structs.replace(default_statement(), models=("core.xml",), folder=folder)
+                report = made_report(statement=StatementEntry.of(statement))
+                return certificate(run_of(report, statement=statement), [key_of("acme")])
         case "twice signed":
             return certificate(run_of(report), [key_of("acme"), key_of("lab")])
     return certificate(run_of(report), [key_of("acme")])
@@ -289,4 +297,4 @@ def seed_of(answer: bytes) -> int:
     return answered(answer).seed
 
 
-INTACT = ("plain", "failing", "waived", "inconclusive", "challenged", "witnessed", "twice signed")
+INTACT = ("plain", "failing", "waived", "inconclusive", "challenged", "witnessed", "with models", "twice signed")

@@ -197,6 +197,7 @@ STRANGERS: dict[str, tuple[Callable[[], bytes], str, str]] = {
         "digest",
         "'waivers.json' is not the one",
     ),
+    "models: changed": (lambda: _models_changed(), "digest", "'models.json' is not the one"),
     "waivers: stretched": (lambda: _stretched(), "digest", "'waivers.json' is not the one"),
     "environment: isolation embellished": (
         lambda: _stranger(archive.ENVIRONMENT, _set("isolation", to="bubblewrap")),
@@ -276,6 +277,12 @@ STRANGERS: dict[str, tuple[Callable[[], bytes], str, str]] = {
 def _stretched() -> bytes:
     forger = forger_of(intact("waived"))
     forger.change(archive.WAIVERS, lambda waivers: [{**waivers[0], "expires": "2199-12-31"}])
+    return forger.unsigned()
+
+
+def _models_changed() -> bytes:
+    forger = forger_of(intact("with models"))
+    forger.members[archive.MODELS] = encoded({"core.xml": "<b/>"})
     return forger.unsigned()
 
 
@@ -366,6 +373,7 @@ VENDORS: dict[str, tuple[Callable[[], bytes], str, str]] = {
     "models that lead elsewhere": (lambda: _vendor(_models({"../../x.xml": "<a/>"})), "models", "'../../x.xml' is no name of a model"),
     "models with a hidden name": (lambda: _vendor(_models({".bashrc": "x"})), "models", "'.bashrc' is no name of a model"),
     "models that nobody declares": (lambda: _vendor(_models({"a.xml": "<a/>"})), "models", "models that the statement does not declare"),
+    "models taken out": (lambda: _vendor(lambda f: f.members.pop(archive.MODELS), "with models"), "models", "declares models, and the certificate has none"),
     "environment of another suite": (lambda: _vendor(_environment("suite_version", "0.0.9")), "claims", "the environment says '0.0.9'"),
     "environment written anew": (lambda: _reencoded_signed(archive.ENVIRONMENT, lambda c: c + b"\n"), "environment", "written otherwise"),
     "a million scenarios drawn": (lambda: _vendor(_setting("drawn", 10**6)), "settings", "drawn = 1000000"),
