@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
+import shlex
 from pathlib import Path
 
 import pytest
 from certified import VERIFIER, put, report, verified
 from command_line import Outcome, ucm_cts
+from files import ROOT
 
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.certificates.problems import Problem
 from ucm_cts.harness.cli import publish_command
+from ucm_cts.harness.cli.commands import cli
 
 
 @pytest.fixture
@@ -104,3 +109,21 @@ def test_wrong_use_is_one_line(folder: Path, options: tuple[str, ...], message: 
 def test_a_folder_that_is_not_there_is_refused(tmp_path: Path) -> None:
     done = ucm_cts("publish", tmp_path / "no", "--out", tmp_path / "site", "--trust", tmp_path)
     assert (done.status, "there is no folder" in done.err) == (2, True)
+
+
+def test_tox_makes_certificates_of_all_bundled_products() -> None:
+    (block,) = re.findall(r"(?ms)^\[testenv:certificates\]\n(.*?)^\[", (ROOT / "tox.ini").read_text())
+    made = []
+    for line in re.findall(r"(?m)^    -? ?(ucm-cts .+)$", block):
+        name, *arguments = shlex.split(
+            line.replace("{posargs}", "").replace("{/}", "/").replace("{tox_root}", str(ROOT))
+        )[1:]
+        context = cli.commands[name].make_context(name, arguments)
+        if name == "certify":
+            made.append(
+                (Path(context.params["adapter"] or context.params["toolchain"]).stem, context.params["profile"])
+            )
+    assert made == [
+        ("reference-cpp", "core"), ("reference-py", "core"), ("ipopo", "container"), ("gstreamer", "container"),
+        ("julia-adapter", "container"), *(("toolchain", profile) for profile in TOOLCHAIN_PROFILES),
+    ]  # fmt: skip
