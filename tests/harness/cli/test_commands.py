@@ -63,7 +63,7 @@ def test_conformant_framework_without_a_terminal(here: Path) -> None:
     result = [line for line in rest if not re.match(r"\d+ s: ", line)]  # a line of progress each ten seconds
     assert len(result) == 5
     assert result[0].startswith("✓ CONFORMANT")
-    assert result[2].startswith("  hosts ran ")
+    assert result[3].startswith("  hosts ran ")
     assert result[-1] == rest[-1] == "report  new/out/report.html"
     assert not {"\x1b", "\r"} & set(done.stdout)
     report = report_of(here / "new/out")
