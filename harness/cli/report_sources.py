@@ -31,7 +31,7 @@ def columns_in(places: Iterable[Path]) -> tuple[list[Column], list[str]]:
 
 
 def _files(place: Path) -> Iterator[Path]:
-    if not place.is_dir():
+    if not os.path.isdir(place):  # also of a name that is too long to ask for
         yield place
         return
     found = sorted(_below(place))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from pathlib import Path
 from typing import Any
@@ -216,11 +217,15 @@ def test_what_cannot_be_compared_is_refused_in_one_line(old: Any, new: Any, prob
 def test_other_wrong_use_is_refused_in_one_line(tmp_path: Path) -> None:
     one, two = save(tmp_path, run(PASS), run(PASS, version="2"))
     (tmp_path / "empty").mkdir()
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
     for arguments, problem in (
         (("--baseline", one), "no REPORT is named to compare with the baseline"),
         (("--baseline", one, tmp_path / "empty"), "there is no report.json in"),
         (("--baseline", tmp_path, two), "are both of Acme, profile container; name one of them"),
         (("--baseline", tmp_path / "none", two), "cannot be read"),
+        (("--baseline", one, "x" * 300), "cannot be read"),
+        (("--baseline", pipe, two), "is no plain file"),
         ((one, two, "--junit", tmp_path / "junit.xml"), "--junit takes --baseline OLD"),
         ((one, two, "--annotations"), "--annotations takes --baseline OLD"),
         (("--baseline", one, two, "--junit", tmp_path / "0" / "report.json"), "is there, and no run wrote it"),
