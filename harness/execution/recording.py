@@ -172,8 +172,8 @@ class RecordingDriver(Driver):
         answer, recorder = super().again(name, scenario, circumstances), self.recorder
         if not recorder.is_suspended:
             place, trace = recorder.scenario(answer.disguised), recorder.trace(answer.trace)
-            how = (float(circumstances.patience), circumstances.one_core, circumstances.after)
-            recorder.add(r.Repeated(recorder.now, name, place, *trace, answer.stuck, *how))
+            patience, one_core, after = float(circumstances.patience), circumstances.one_core, circumstances.after
+            recorder.add(r.Repeated(recorder.now, name, place, *trace, answer.stuck, patience, one_core, after))
         return answer
 
     def many_times(self, name: str, scenario: Scenario) -> Generator[tuple[Answer, Usage | None], None, None]:

@@ -77,14 +77,13 @@ def monitor_of(variant: str) -> Monitor:
     return Monitor(load_life_cycle(), Ics(dict(declared))) if declared else the_monitor()
 
 
-def perform(adapter: type[Adapter], scenario: Scenario) -> tuple[Trace, bool]:
-    """What happens, and whether a worker never came back."""
+def perform(adapter: type[Adapter], scenario: Scenario) -> tuple[Trace, Sequence[str]]:
+    """What happens, and the workers that never came back."""
     performance = Performance(adapter(), scenario, Recorder())
-    trace, stuck = performance.run()
-    return trace, bool(stuck)
+    return performance.run()
 
 
-def traces_of_wrong_subjects(scenario: Scenario, first: int) -> Iterator[tuple[Trace, bool]]:
+def traces_of_wrong_subjects(scenario: Scenario, first: int) -> Iterator[tuple[Trace, Sequence[str]]]:
     for adapter in WRONG[first::SOME]:
         try:
             yield perform(adapter, scenario)

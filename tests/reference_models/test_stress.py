@@ -34,7 +34,7 @@ T = TypeVar("T")
 def played(asked: Scenario, adapter: type[ReferenceAdapter]) -> Trace:
     reply = answer(asked, adapter)
     assert isinstance(reply, Traced), reply
-    assert contradiction(asked, reply.events, bool(reply.stuck)) is None
+    assert contradiction(asked, reply.events, reply.stuck) is None
     assert set(reply.stuck) <= set(asked.may_stay)
     return reply.events
 

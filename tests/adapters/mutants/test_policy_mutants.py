@@ -57,7 +57,7 @@ def failing(
     for name, asked in scenarios(*readings.items()).items():
         reply = answer(asked, adapter)
         assert isinstance(reply, Traced), (name, reply)
-        problem = contradiction(asked, reply.events, bool(reply.stuck))
+        problem = contradiction(asked, reply.events, reply.stuck)
         assert problem is None, (name, problem)
         findings = monitor.judge(asked, reply.events).findings
         check_wording(asked, findings)

@@ -56,7 +56,7 @@ def findings(adapter: type[ReferenceAdapter], asked: Scenario) -> list[Finding]:
     """What is wrong with it in one scenario; nothing if that is an incident."""
     with bounded(asked):
         reply = answer(asked, adapter)
-    if not isinstance(reply, Traced) or contradiction(asked, reply.events, bool(reply.stuck)) is not None:
+    if not isinstance(reply, Traced) or contradiction(asked, reply.events, reply.stuck) is not None:
         return []
     return list(Monitor(load_life_cycle()).judge(asked, reply.events).findings)
 

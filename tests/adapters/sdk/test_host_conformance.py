@@ -136,7 +136,7 @@ PYTHON = {"strict": ReferenceAdapter, "rude": RudeAdapter}
 def check(case: Case, answer: m.FromHost) -> None:
     """``answer`` is a trace that can be true, with the events of ``case``."""
     assert isinstance(answer, m.Traced), answer
-    assert contradiction(case.scenario, answer.events, bool(answer.stuck)) is None
+    assert contradiction(case.scenario, answer.events, answer.stuck) is None
     lines = [line_of(event) for event in answer.events] + [f"stuck {name}" for name in answer.stuck]
     expected = list(case.trace)
     if expected[0] == "*":  # what comes first is the matter of another case
