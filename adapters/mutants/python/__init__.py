@@ -87,7 +87,10 @@ MODULES = {
         "situations",
         "sizes",
     ),
-    "cheats": ("adapters", "replays_in_time", "replays_new_times", "replays_old_times", "tampering"),
+    "cheats": (
+        *("adapters", "exchanging", "intruding", "recognising", "tampering"),
+        *("replays_in_time", "replays_new_times", "replays_old_times"),
+    ),
 }
 """By the folder: the modules that register mutants, variants or cheats."""
 

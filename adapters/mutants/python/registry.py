@@ -59,7 +59,7 @@ class Cheat:
     """An adapter that hides what a framework does. ``detected_by`` says what must come out, all of it: requirements that fail,
     or kinds of incident; nothing if no observation can tell it from an honest adapter of a conformant framework.
 
-    ``or_else`` says what comes out instead where ``detected_by`` depends on time and the machine is busy.
+    ``or_else`` says what comes out instead where ``detected_by`` depends on time and the machine is busy, or on a sandbox.
     ``endpoint`` is how it is named on the command line. ``rehearsals`` are runs in which it learns, before it cheats.
     """
 
@@ -165,7 +165,7 @@ def variant_of(*clauses: str, readings: Mapping[str, str] = {}) -> Callable[[typ
 
 
 def cheats(
-    *detected_by: str, clauses: tuple[str, ...] = CONTAINER, rehearsals: int = 0
+    *detected_by: str, clauses: tuple[str, ...] = CONTAINER, rehearsals: int = 0, or_else: tuple[str, ...] = ()
 ) -> Callable[[type[ReferenceAdapter]], type[ReferenceAdapter]]:
     """Register the decorated adapter as a cheat; without ``detected_by`` as one that no observation detects."""
 
@@ -175,7 +175,7 @@ def cheats(
         known = CHEATS if detected_by else UNSEEN
         assert name not in {**CHEATS, **UNSEEN, **MUTANTS, **VARIANTS}, name
         adapter.product = name
-        known[name] = Cheat(name, f"{__package__}:{name}", lie, detected_by, clauses, rehearsals, adapter)
+        known[name] = Cheat(name, f"{__package__}:{name}", lie, detected_by, clauses, rehearsals, adapter, or_else)
         return adapter
 
     return register

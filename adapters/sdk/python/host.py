@@ -38,6 +38,7 @@ def main() -> None:
     how.add_argument("--listen", metavar="ADDRESS", help="tcp://HOST:PORT or unix:/PATH")
     how.add_argument("--control", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args()
+    sys.argv[:] = [options.adapter]  # what is loaded need not know who loads it
     control = socket.socket(fileno=options.control) if options.control is not None else None
     sys.breakpointhook = _say_breakpoint
     # found before the adapter is loaded, which could replace them
