@@ -303,6 +303,10 @@ class Hosts:
         """How many seconds ``scenario`` may take."""
         return self.limits.seconds + waits(scenario) + SECONDS_A_STEP * max(0, len(scenario.steps) - LONG)
 
+    def start_fresh(self) -> None:
+        """End the host, if there is one, and start another. Raises ``HostUnavailable`` and ``WrongUse``."""
+        self._open()
+
     def discard(self) -> None:
         """End the host, if there is one; the next run gets a fresh one."""
         host, self._host = self._host, None

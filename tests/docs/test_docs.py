@@ -37,7 +37,7 @@ from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.report.published import by_product, read_published
-from ucm_cts.harness.results.values import Verdict
+from ucm_cts.harness.results.values import Isolation, Verdict
 from ucm_cts.harness.selftest.kill_record import read_record
 from ucm_cts.harness.toolchains.commands.description import Command, ToolChain
 from ucm_cts.reference_models.monitor import Monitor
@@ -161,7 +161,7 @@ def test_tables_name_existing_things() -> None:
     for names, path in values:
         module = importlib.import_module(f"ucm_cts.{path.replace('/', '.')}")
         assert [name for name in re.findall(r"\w+", names) if not hasattr(module, name)] == []
-    assert set(column("docs/verdicts.md", "`(.+?)`")) == set(get_args(Verdict))
+    assert set(column("docs/verdicts.md", "`(.+?)`")) == {*get_args(Verdict), *get_args(Isolation)}
     (short,) = column("README.md", r"(.+), \.\.\. \| takes a bundled adapter.*")
     assert set(re.findall(r"`(.+?)`", short)) <= entry_points(group="ucm_cts.adapters").names
 
