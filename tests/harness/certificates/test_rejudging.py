@@ -83,20 +83,24 @@ def test_a_reader_finds_every_scenario_and_its_whole_trace(conformant: Run) -> N
     ("adapter", "words", "more"),
     [
         (f"{MUTANTS}:leaves_its_watchdog", ("R-11.2.2.2-07",), {}),
-        (f"{MUTANTS}:forgets_who_waits", (), {"seconds": 1.0, "incident_seconds": 8.0}),
         ("hostile.failing:CrashesInRemove", (), {"incident_seconds": 3.0}),
         ("hostile.failing:HangsInStop", (), {"seconds": 0.5, "incident_seconds": 3.0}),
-        ("hostile.failing:LeavesCallsWaiting", (), {"seconds": 1.0, "incident_seconds": 5.0}),
+        (
+            "hostile.failing:LeavesCallsWaiting",
+            ("later use/removal of the server",),
+            {"seconds": 1.0, "incident_seconds": 5.0},
+        ),
         ("hostile.failing:AddsNothing", (), {}),
-        ("hostile.attacking:HasAGreedyChild", (), {"memory": 250, "incident_seconds": 3.0}),
+        ("hostile.failing:TakesMemoryInStop", (), {"memory": 250, "incident_seconds": 3.0}),
     ],
 )
 @pytest.mark.usefixtures("here")
 def test_what_fails_crashes_or_hangs_is_judged_like_the_run(
     adapter: str, words: tuple[str, ...], more: dict[str, Any]
 ) -> None:
-    run = run_of(adapter, *words, every=25, **more)
-    assert run.report.incidents or any(result.findings for result in run.report.requirements)
+    run = run_of(adapter, *words, every=10**6 if words else 25, **more)
+    shown = any(result.findings for result in run.report.requirements)
+    assert shown or run.report.incidents or run.report.warnings
     is_same(run)
 
 

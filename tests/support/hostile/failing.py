@@ -114,3 +114,12 @@ class AddsNothing(ReferenceAdapter):
     def add_component(self, container: ContainerHandle, implementation: str, attributes: Mapping[str, str]) -> Any:
         super().add_component(container, implementation, attributes)
         return None
+
+
+class TakesMemoryInStop(ReferenceAdapter):
+    """Takes more and more memory."""
+
+    def stop(self, container: ContainerHandle) -> None:
+        hoard: list[bytes] = []
+        while True:
+            hoard.append(os.urandom(1 << 24))
