@@ -69,11 +69,6 @@ def _of_toolchain(contents: Contents, claims: Claims, statement: Statement, is_d
     from ucm_cts.harness.toolchains import recorded_form
     from ucm_cts.harness.toolchains.campaign import ToolChainPlan
 
-    if is_delta:
-        raise unreadable(
-            "suite",
-            "the models of a tool chain follow from the suite, so that another one cannot judge its answers: run it again",
-        )
     assert contents.record is not None
     try:
         record = recorded_form.decoded(contents.record)
@@ -83,10 +78,9 @@ def _of_toolchain(contents: Contents, claims: Claims, statement: Statement, is_d
             claims.profile,
             statement,
             contents.waivers or (),
-            source=contents.report.adapter if contents.report is not None else "",
             seed=claims.seed,
         )
-        judged = judge_toolchain_again(record, plan, contents.is_vouched_for)
+        judged = judge_toolchain_again(record, plan, contents.is_vouched_for, is_delta=is_delta)
     except (recorded_form.RecordError, WrongUse) as error:
         raise unreadable("record", one_line(str(error), 400)) from None
     return JudgedAgain(entry_of(judged.report), tuple(Problem("record", problem) for problem in judged.problems))

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import msgspec
 
 from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.hosting.sandbox import why_none
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import ToolChainReport
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign, ToolChainPlan
@@ -36,13 +37,21 @@ class Judged:
 
 
 def judge_toolchain_again(
-    record: ToolChainRecord, plan: ToolChainPlan, is_vouched_for: bool, expression: str = "", compiler: str = "g++"
+    record: ToolChainRecord,
+    plan: ToolChainPlan,
+    is_vouched_for: bool,
+    expression: str = "",
+    compiler: str = "g++",
+    *,
+    is_delta: bool = False,
 ) -> Judged:
     """Judge ``record``, which ``recorded_form.decoded`` gave, as a run of ``plan`` on what ``expression`` selects.
 
     ``is_vouched_for``: whether somebody whom the verifier trusts has signed it.
+    ``is_delta``: whether another suite made the record: then it need not fit, and models that it does not have decide nothing.
     ``compiler``: the verifier's C++ compiler.
-    Times of the report are those of the record; how long requirements took is not derived. Raises ``WrongUse``.
+    Times, isolation and the name of the description are those of the record; how long requirements took is not derived.
+    Raises ``WrongUse``.
     """
     task = TASKS[plan.profile]
     if task != record.task:
@@ -52,9 +61,11 @@ def judge_toolchain_again(
     command = of_verifier(described, compiler)
     untouched = _untouched(described, task, is_vouched_for, compiler)
     renaming = Renaming(plan.seed, record.toolchain.dialect)
-    examination = examination_for(plan.profile, plan.statement, renaming, expression, command, untouched=untouched)
+    examination = examination_for(
+        plan.profile, plan.statement, renaming, expression, command, network=False, untouched=untouched
+    )
     names = [name for name, _ in examination.models]
-    replay = Replay(record)
+    replay = Replay(record, is_delta)
     campaign = ToolChainCampaign(replay, examination, plan)
     try:
         for _ in campaign.process():
@@ -65,8 +76,9 @@ def judge_toolchain_again(
     except NoCompiler as problem:
         raise WrongUse(str(problem)) from None
     report = as_selected(campaign.report(), campaign, plan.profile, expression)
-    report = msgspec.structs.replace(report, started=record.started, seconds=record.seconds)
-    problems = (*_of_another_run(record, plan), *replay.problems(names), *impossible_times(record))
+    report = msgspec.structs.replace(report, started=record.started, seconds=record.seconds, adapter=record.source)
+    misfits = () if is_delta else (*_of_another_run(record, plan), *replay.problems(names))
+    problems = (*misfits, *impossible_times(record))
     if untouched:
         problems += (
             f"not judged: what was generated of {len(names)} models was read by no compiler, because {untouched}",
@@ -91,9 +103,12 @@ def _untouched(described: Command, task: str, is_vouched_for: bool, compiler: st
     """Why no program may read what was generated; empty if one may, or if nothing was generated."""
     if task == "check":
         return ""
-    if not is_vouched_for:
-        return UNTRUSTED
-    if task == "idl":
+    return why_not_judged(described, task, compiler) if is_vouched_for else UNTRUSTED
+
+
+def why_not_judged(described: Command, task: str, compiler: str = "g++") -> str:
+    """Why nobody who trusts the signer could judge here what ``described`` generates for ``task``; empty if one could."""
+    if task not in ("cpp11", "cpp03"):
         return ""
     odd = [word for word in described.compiler[1:] if not _HARMLESS.fullmatch(word)]
     odd += [word for word in described.libraries if not _LIBRARY.fullmatch(word)]
@@ -102,7 +117,7 @@ def _untouched(described: Command, task: str, is_vouched_for: bool, compiler: st
         return f"it needs '{one_line(odd[0], 80)}', which no certificate holds"
     if not can_be_run(compiler):
         return f"there is no compiler '{compiler}' here; install it, or name another"
-    return "generated programs run in a sandbox only, and there is none"
+    return f"generated programs run in a sandbox only, and there is none: {why_none()}" if why_none() else ""
 
 
 def _of_another_run(record: ToolChainRecord, plan: ToolChainPlan) -> Iterator[str]:
@@ -112,5 +127,5 @@ def _of_another_run(record: ToolChainRecord, plan: ToolChainPlan) -> Iterator[st
         ("version", record.toolchain.version, plan.version),
         ("seed", str(record.seed), str(plan.seed)),
     ):
-        if recorded != planned:
+        if one_line(recorded) != one_line(planned):
             yield f"the record is of another run: its {what} is '{one_line(recorded)}', and the certificate's is '{one_line(planned)}'"

@@ -18,12 +18,13 @@ from ucm_cts.harness.certificates.keys import Trust, TrustedKey, signer_of
 from ucm_cts.harness.certificates.problems import Unreadable
 from ucm_cts.harness.certificates.subjects import subjects_of, subjects_of_toolchain
 from ucm_cts.harness.certificates.suite_build import suite_digest
+from ucm_cts.harness.certificates.toolchain_rejudging import why_not_judged
 from ucm_cts.harness.certificates.verified import Subject
 from ucm_cts.harness.certificates.verifying import Verifier
 from ucm_cts.harness.cli.framework_run import FrameworkRun
 from ucm_cts.harness.cli.options import leave_with
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
-from ucm_cts.harness.cli.toolchain_command import ToolChainRun, run_toolchain
+from ucm_cts.harness.cli.toolchain_command import ToolChainRan, ToolChainRun, run_toolchain
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.offers import LIMITS
 from ucm_cts.harness.execution.recording import RecordingDriver, encoded
@@ -166,15 +167,21 @@ def certify_toolchain_run(wanted: Wanted, run: ToolChainRun) -> NoReturn:
     console = Output()
     with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(run.out) as folder:
         toolchain = read_toolchain(run.path)
-        subjects = subjects_of_toolchain(toolchain, TASKS[run.profile], wanted.artifacts)
+        task = TASKS[run.profile]
+        described = toolchain.command_for(task)
+        why = why_not_judged(described, task) if described is not None else ""
+        if why:
+            raise WrongUse(f"nobody could verify the certificate: {why}")
+        subjects = subjects_of_toolchain(toolchain, task, wanted.artifacts)
         ran = run_toolchain(run, console, interrupts)
         saved = keep_report(ran.report, folder)
-        if ran.report.incomplete:
-            console.say(_INCOMPLETE)
+        record, problem = _record_of(ran)
+        if problem:
+            console.say(problem)
         else:
             made = Run(
                 report=entry_of(ran.report),
-                record=recorded_form.encoded(ran.record()),
+                record=record,
                 statement=ran.plan.statement,
                 waivers=tuple(ran.known),
                 subjects=subjects,
@@ -183,6 +190,16 @@ def certify_toolchain_run(wanted: Wanted, run: ToolChainRun) -> NoReturn:
             )
             console.say(_written(certificate(made, [signer]), signer, wanted.out))
         leave_with(console, ran.report, saved, ran.known, run.everything)
+
+
+def _record_of(ran: ToolChainRan) -> tuple[bytes, str]:
+    """The record of a run on a tool chain, or why no certificate can be made of it."""
+    if ran.report.incomplete:
+        return b"", _INCOMPLETE
+    try:
+        return recorded_form.encoded(ran.record()), ""
+    except recorded_form.RecordError as problem:
+        return b"", f"no certificate is made: {problem}"
 
 
 _INCOMPLETE = "no certificate is made of an incomplete run; run it again"

@@ -70,6 +70,10 @@ class View:
         real = os.path.realpath(folder)
         return replace(self, mounts=(*self.mounts, "--bind", real, real), shown=(*self.shown, real))
 
+    def without_network(self) -> View:
+        """The same, and no network."""
+        return replace(self, mounts=("--unshare-net", *self.mounts))
+
     def hides(self, path: str) -> bool:
         """Whether ``path``, which is there outside, is not there inside."""
         real = os.path.realpath(path)

@@ -50,12 +50,13 @@ def examination_for(
     models: Collection[str] | None = None,
     untouched: str = "",
     sandbox: bool = True,
+    network: bool = True,
 ) -> Examination:
     """What ``profile`` asks, with models in ``renaming``, as far as it concerns ``expression`` and what the vendor states.
 
     ``command`` says of generated C++ which compiler takes it, and where its headers are. Code is generated from ``models`` only, if
     they are named. ``untouched`` is why no compiler may read what was generated, and nothing of it may run; empty if that may be.
-    ``sandbox``: compilers, and what they make, run in one. Raises ``WrongUse``.
+    ``sandbox``: compilers, and what they make, run in one, where ``network`` says whether there is a network. Raises ``WrongUse``.
     """
     unfinished = in_the_making(profile)
     if unfinished:
@@ -84,7 +85,7 @@ def examination_for(
         raise WrongUse(
             f"no compiler '{compiler}' can be run; install it, or name another: compiler = [...] in [{task}]"
         )
-    compare = functools.partial(_compare_cpp, standard, statement.readings, how, sandbox)
+    compare = functools.partial(_compare_cpp, standard, statement.readings, how, _compiler(how, sandbox, network))
     if untouched:
         compare = functools.partial(_compare_nothing, standard, statement.readings, untouched)
     not_asked = applicability.not_applicable(statement)
@@ -139,11 +140,16 @@ def _compare_nothing(
 
 
 def _compare_cpp(
-    standard: Standard, readings: Mapping[str, str], how: Command, sandbox: bool, model: Model, files: Mapping[str, str]
+    standard: Standard,
+    readings: Mapping[str, str],
+    how: Command,
+    compiler: Compiler,
+    model: Model,
+    files: Mapping[str, str],
 ) -> Comparison:
     layout = Layout(how.include, how.headers, how.sources, how.libraries)
-    return compare_cpp(model, files, standard, readings, _compiler(how, sandbox), layout)
+    return compare_cpp(model, files, standard, readings, compiler, layout)
 
 
-def _compiler(how: Command, sandbox: bool = True) -> Compiler:
-    return Compiler(how.compiler, sandbox=sandbox) if how.compiler else Compiler(sandbox=sandbox)
+def _compiler(how: Command, sandbox: bool = True, network: bool = True) -> Compiler:
+    return Compiler(how.compiler or Compiler().command, sandbox=sandbox, network=network)

@@ -57,6 +57,7 @@ class ToolChainRecord(Value, frozen=True, kw_only=True):
     ``toolchain``: its description with the command for ``task`` only, and without the folder where it was.
     ``started``, ``seconds``: when the run began, ISO 8601, and how long it took.
     ``jobs``: how many calls there could be at a time.
+    ``source``: the file of the description, as it was named.
     ``warnings``: what the vendor was told of how the calls went. ``isolation``: where the commands ran.
     ``commands``, ``texts``: what calls refer to, each once, in the order of the first references.
     """
@@ -70,6 +71,7 @@ class ToolChainRecord(Value, frozen=True, kw_only=True):
     calls: tuple[Call, ...]
     commands: tuple[tuple[str, ...], ...]
     texts: tuple[str, ...]
+    source: str = ""
     warnings: tuple[str, ...] = ()
     isolation: Isolation = "process"
 
@@ -157,6 +159,7 @@ class Recorder:
             calls=calls,
             commands=tuple(commands),
             texts=tuple(texts),
+            source=report.adapter,
             warnings=self.warnings(),
             isolation=self.isolation,
         )
@@ -179,9 +182,12 @@ def _anywhere(toolchain: ToolChain, task: Task) -> ToolChain:
 class Replay:
     """A processor that answers from a record what the tool chain answered. Ask it for ``problems`` when all is asked."""
 
-    def __init__(self, record: ToolChainRecord) -> None:
-        """``record`` is one that ``decoded`` gave, or a ``Recorder``."""
+    def __init__(self, record: ToolChainRecord, of_another_suite: bool = False) -> None:
+        """``record`` is one that ``decoded`` gave, or a ``Recorder``. Those of another suite answer only for models that this one has,
+        too.
+        """
         self._record = record
+        self._of_another_suite = of_another_suite
         self._lock = threading.Lock()
         self._said = {(call.again_for, said.name): said for call in record.calls for said in call.said}
         self._asked: dict[tuple[str, str], None] = {}
@@ -213,11 +219,12 @@ class Replay:
                 said = self._said.get(("", name))
             elif said is None:
                 self._missing.append(name)
+            if said is not None and said.model != fingerprint(text):
+                self._altered.append(name)
+                said = None if self._of_another_suite else said
             if said is None:
                 nothing = Incident("untried", "the record does not have it")
                 return Response(Processed(name, task, text, (), None, "", nothing), None)
-            if said.model != fingerprint(text):
-                self._altered.append(name)
         return self._response(said, task, text)
 
     def _response(self, said: Said, task: Task, text: str) -> Response:

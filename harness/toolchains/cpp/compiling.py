@@ -35,6 +35,8 @@ class Compiler(Value, frozen=True):
     seconds: float = 60.0
     memory: int = 4096
     sandbox: bool = True
+    network: bool = True
+    """Whether there is a network in the sandbox."""
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,8 @@ def run(words: Sequence[str], folder: Path, compiler: Compiler) -> Ended:
     shell = ["/bin/sh", "-c", _LIMITED, *limits, *words]
     environment = {**os.environ, "LC_ALL": "C.UTF-8"}
     view = view_of(_paths_in(words), mebibytes=compiler.memory) if compiler.sandbox and not why_none() else None
+    if view is not None and not compiler.network:
+        view = view.without_network()
     ended = bounded.run(
         shell,
         folder,

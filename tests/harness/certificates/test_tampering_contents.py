@@ -14,6 +14,7 @@ from forging import (
     challenge_to,
     commitment_to,
     failing,
+    fake_judge,
     forger_of,
     intact,
     key_of,
@@ -616,8 +617,6 @@ def test_one_bad_signature_beside_a_good_one_is_told() -> None:
 def test_an_expired_waiver_is_told() -> None:
     import datetime
 
-    from forging import fake_judge
-
     from ucm_cts.harness.certificates.verifying import Verifier
 
     later = datetime.datetime(2101, 1, 1, tzinfo=datetime.UTC)
@@ -625,13 +624,20 @@ def test_an_expired_waiver_is_told() -> None:
     _assert_refused(verified, "waiver expired", "expired on 2099-12-31; ask for a new certificate")
 
 
-def test_code_of_strangers_is_not_run() -> None:
-    def judge(*_: object) -> Any:
-        raise AssertionError("judged")
+def test_only_a_record_that_a_trusted_key_has_signed_is_vouched_for() -> None:
+    vouched: list[bool] = []
 
-    report = msgspec.structs.replace(made_report(), profile="cpp11")
-    verified = verify(certificate(run_of(report), [key_of("stranger")]), judge=judge)
-    _assert_refused(verified, "record", "neither compiled nor run")
+    def judge(contents: Any, *others: Any) -> Any:
+        vouched.append(contents.is_vouched_for)
+        return fake_judge(contents, *others)
+
+    made = run_of(made_report())
+    verify(certificate(made, [key_of("acme")]), judge=judge)
+    verify(certificate(made, [key_of("stranger")]), judge=judge)
+    other = forger_of(certificate(made, [key_of("acme")]))
+    record = archive.packed(msgspec.json.encode(made_report(seed=99)))
+    verify(archive.written({**other.members, archive.RECORD: record}), judge=judge)
+    assert vouched == [True, False, False]
 
 
 def test_the_envelope_is_one_that_other_tools_read() -> None:

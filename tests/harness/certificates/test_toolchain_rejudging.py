@@ -239,6 +239,17 @@ def test_a_record_of_another_seed_is_of_another_run() -> None:
     )
 
 
+def test_by_another_suite_only_what_both_ask_is_judged() -> None:
+    run = recorded("pim", CASE)
+    calls = tuple(
+        replace(call, said=tuple(replace(said, model="0" * 16) for said in call.said)) for call in run.record.calls
+    )
+    for record, verdicts in ((run.record, {"pass"}), (replace(run.record, calls=calls), {"inconclusive"})):
+        judged = judge_toolchain_again(record, run.plan, is_vouched_for=True, expression=CASE, is_delta=True)
+        assert judged.problems == ()
+        assert {result.verdict for result in judged.report.requirements} == verdicts
+
+
 def test_a_record_of_another_task_is_refused() -> None:
     with pytest.raises(WrongUse, match="the record is of 'check'; profile 'idl' needs 'idl'"):
         judge_toolchain_again(recorded("pim", CASE).record, recorded("idl", "data_types").plan, is_vouched_for=True)
