@@ -106,12 +106,19 @@ class NoCompiler(Exception):
     """The compiler cannot be run; the message says why and what to do."""
 
 
-def run(words: Sequence[str], folder: Path, compiler: Compiler) -> Ended:
-    """Run ``words`` in ``folder`` within the limits of ``compiler``. Raises ``NoCompiler`` if there is no such program."""
+def run(words: Sequence[str], folder: Path, compiler: Compiler, needed: Sequence[Path] = ()) -> Ended:
+    """Run ``words`` in ``folder`` within the limits of ``compiler``; files and folders that they do not name are ``needed``.
+
+    Raises ``NoCompiler`` if there is no such program.
+    """
     limits = [str(compiler.memory * 1024), str(_OUTPUT * 16 // 512)]
     shell = ["/bin/sh", "-c", _LIMITED, *limits, *words]
     environment = {**os.environ, "LC_ALL": "C.UTF-8"}
-    view = view_of(_paths_in(words), mebibytes=compiler.memory) if compiler.sandbox and not why_none() else None
+    view = (
+        view_of([*_paths_in(words), *needed], mebibytes=compiler.memory)
+        if compiler.sandbox and not why_none()
+        else None
+    )
     if view is not None and not compiler.network:
         view = view.without_network()
     ended = bounded.run(

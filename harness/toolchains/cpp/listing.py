@@ -96,7 +96,8 @@ def _answered(request: Request, compiler: Compiler) -> Answers:
     with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
         path = Path(folder) / "request.json"
         path.write_bytes(msgspec.json.encode(request))
-        ended = run([*COMMAND, str(path)], Path(folder), compiler)
+        needed = (Path(lister.__file__), Path(request.folder))  # a sandbox hides the harness otherwise
+        ended = run([*COMMAND, str(path)], Path(folder), compiler, needed)
     if ended.problem:
         return Answers(problem=f"libclang does not come to an end with the headers: {ended.problem}")
     try:

@@ -49,6 +49,12 @@ def test_a_whole_run_is_judged_again(profile: str) -> None:
     assert without_times(judged.report) == without_times(run.report)
 
 
+def test_libclang_is_asked_in_the_sandbox() -> None:
+    judged = again(recorded("cpp11", "policy_example"))
+    assert judged.problems == ()
+    assert next(r.verdict for r in judged.report.requirements if r.id == "R-13-03") == "pass"
+
+
 def test_code_of_a_stranger_is_neither_compiled_nor_run(monkeypatch: pytest.MonkeyPatch) -> None:
     run = recorded("cpp11", MODEL)
 
