@@ -103,6 +103,9 @@ class Opener(Protocol):
         Raises ``HostUnavailable``, and ``WrongUse`` if the endpoint leads to no adapter.
         """
 
+    def hint(self, text: str) -> str:
+        """Why a sandbox may be the reason for what ``text`` says; empty if nothing says so."""
+
     def close(self) -> None:
         """End all hosts and the process that forks them."""
 
@@ -324,15 +327,18 @@ class TemplateProcess:
     def _ends_soon(self) -> bool:
         return self._started is None or _has_ended(self._started.pid, _FAREWELL_SECONDS)
 
+    def hint(self, text: str) -> str:
+        return self._view.hint(text) if self._view is not None else ""
+
     def _explained(self, problem: str) -> str:
         """``problem``, and what the sandbox may have to do with it."""
-        hint = self._view.hint(problem) if self._view is not None else ""
+        hint = self.hint(problem)
         return f"{problem}; {hint}" if hint else problem
 
     def _unavailable(self, kind: IncidentKind, detail: str) -> HostUnavailable:
         self._log.seek(0)
         printed = self._log.read()[-_LOG_TAIL:].decode(errors="replace")
-        hint = self._view.hint(printed) if self._view is not None else ""
+        hint = self.hint(printed)
         return HostUnavailable(Incident(kind, f"{detail}; {hint}" if hint else detail, printed))
 
 

@@ -234,7 +234,8 @@ class Hosts:
         try:
             welcome = self._greet(host)
         except HostIncident as error:
-            raise HostUnavailable(_explained(error.incident, self._endpoint)) from error
+            hint = self._opener.hint(error.incident.stacks) if self._opener is not None else ""
+            raise HostUnavailable(_explained(error.incident, self._endpoint, hint)) from error
         except BaseException:
             host.close()
             raise
@@ -351,10 +352,9 @@ def _changed(before: m.Welcome, after: m.Welcome) -> str:
     return f"the host is of '{now}', and the first host of this run was of '{named}'; a product must not change during a run"
 
 
-def _explained(incident: Incident, endpoint: Endpoint) -> Incident:
-    return msgspec.structs.replace(
-        incident, detail=f"'{endpoint.text}' does not answer hello: {incident.kind}, {incident.detail}"
-    )
+def _explained(incident: Incident, endpoint: Endpoint, hint: str) -> Incident:
+    problem = f"'{endpoint.text}' does not answer hello: {incident.kind}, {incident.detail}"
+    return msgspec.structs.replace(incident, detail=f"{problem}; {hint}" if hint else problem)
 
 
 def _opener(endpoint: Endpoint, memory: int) -> Opener:

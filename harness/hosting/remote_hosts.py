@@ -35,6 +35,9 @@ class Connector:
                     raise HostUnavailable(Incident("unreachable", detail)) from error
             time.sleep(0.05)
 
+    def hint(self, text: str) -> str:
+        return ""
+
     def close(self) -> None:
         """Nothing to end: the host runs on."""
 

@@ -162,6 +162,17 @@ def test_an_adapter_that_misses_something_is_told_of_the_sandbox(here: Path) -> 
     assert ucm_cts("run", "mine:Mine", "-k", REQUIREMENT, "--no-sandbox").status == 0
 
 
+@needs_sandbox
+def test_an_executable_that_misses_something_is_told_of_the_sandbox(here: Path) -> None:
+    hidden = here / "earlier"
+    hidden.mkdir()
+    (hidden / MANIFEST).write_text("{}")
+    (here / "host.sh").write_text(f"#!/bin/sh\ncat {hidden / MANIFEST}\n")
+    (here / "host.sh").chmod(0o755)
+    with pytest.raises(HostUnavailable, match="the sandbox hides"), Hosts(locate("./host.sh"), LIMITS) as hosts:
+        assert hosts.welcome
+
+
 # what it says
 
 
