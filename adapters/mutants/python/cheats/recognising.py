@@ -1,5 +1,7 @@
-"""Defeat devices: adapters of a framework that stops in the wrong order, which run the reference framework where they believe to be
-tested. Some look for what only a test has and are deceived; others look for what every test has and are not."""
+"""Defeat devices: frameworks that stop in the wrong order, unless they believe to be tested: then the reference framework runs.
+
+Some look for what only a test has and are deceived; others look for what every test has and are not.
+"""
 
 from __future__ import annotations
 
