@@ -146,7 +146,8 @@ import os, signal, subprocess, sys
 from attacking import Attack
 
 def control():
-    return int(sys.argv[sys.argv.index("--control") + 1])
+    line = open("/proc/self/cmdline").read().split("\\0")
+    return int(line[line.index("--control") + 1])
 
 class Evil(Attack):
     pass
