@@ -174,7 +174,7 @@ def test_interrupted_pytest_session_says_so_in_its_report(here: Path, calls: int
     options = [
         "--iut",
         "waiting:Waits",
-        "--no-sandbox",
+        "--iut-no-sandbox",
         "-k",
         "whole-life or many-members",
         "--iut-out",
