@@ -150,7 +150,7 @@ WRONG_USES: dict[str, tuple[str, str]] = {
     "no adapter to replay on": ("replay script.yaml nobody", "'nobody' names no adapter"),
     "requirement": ("explain R-99-01", "no requirement 'R-99-01'"),
     "nearly a requirement": (f"explain {REQUIREMENT}3", f"near it: {REQUIREMENT}"),
-    "command": ("certify", "No such command 'certify'"),
+    "command": ("approve", "No such command 'approve'"),
 }
 
 

@@ -229,7 +229,7 @@ def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(sl
     (failed, *_) = result.findings
     assert failed.execution is not None
     if verdict == "inconclusive":
-        assert result.reason == failed.unstable == "unstable: seen, and not when the same scenario was run 3 times more"
+        assert result.reason == failed.unstable == "unstable: seen, and not when the same scenario was run 4 times more"
         assert failed.steady is not None
         assert len(failed.steady.trace) > len(failed.execution.trace)
 
