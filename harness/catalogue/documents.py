@@ -21,6 +21,7 @@ LARGEST = 4 * 1024 * 1024
 """Bytes a document may have."""
 
 DEEPEST = 50
+_TOO_DEEP = f"nests deeper than {DEEPEST} levels"
 """Levels a document may nest."""
 
 MOST_DOTS = 100
@@ -104,7 +105,10 @@ def read_lines(path: Path) -> tuple[object, dict[str, int]]:
         return _build(path, node, "$", lines), lines
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        raise DocumentError(path, mark.line + 1 if mark else None, f"not YAML: {error.problem}") from None
+        # newer readers of YAML have a limit of their own, and reach it by reading ahead
+        deep = "nesting depth" in (error.problem or "")
+        problem = _TOO_DEEP if deep else f"not YAML: {error.problem}"
+        raise DocumentError(path, mark.line + 1 if mark else None, problem) from None
     except yaml.YAMLError as error:
         raise DocumentError(path, None, f"not YAML: {' '.join(str(error).split())}") from None
 
@@ -161,7 +165,7 @@ def _refuse_anchors_and_depth(path: Path, text: str) -> None:
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > DEEPEST:
-                raise DocumentError(path, _line(event.start_mark), f"nests deeper than {DEEPEST} levels")
+                raise DocumentError(path, _line(event.start_mark), _TOO_DEEP)
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
 
