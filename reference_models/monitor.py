@@ -24,7 +24,7 @@ from ucm_cts.reference_models.model.operation_end import conclude
 from ucm_cts.reference_models.model.row_selection import RowSelection
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.naming import Namer
-from ucm_cts.reference_models.properties.declaration import Bound, Feature, Moment
+from ucm_cts.reference_models.properties.declaration import Feature, Moment
 from ucm_cts.reference_models.properties.table import PropertyTable, features_of
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -99,6 +99,7 @@ class _TraceReader:
         self.verdicts = Verdicts()
         self.steps = scenario.steps
         self.runtime = ObservedRuntime(scenario, monitor.ics, "interactions" in features)
+        self.evaluate = functools.partial(self.verdicts.evaluate, self.runtime)
         self.ongoing: OperationInProgress | None = None
         self.histories = defaultdict[tuple[str, int], CallbackHistory](CallbackHistory)
         self.calls: list[list[BusinessCall]] = []
@@ -117,13 +118,6 @@ class _TraceReader:
         """Add what the properties of ``moment`` conclude from ``details``."""
         if properties := self.table.at[moment]:
             self.evaluate(properties, *details)
-
-    def evaluate(self, properties: tuple[Bound, ...], *details: object) -> None:
-        """Add what the properties conclude from ``details``."""
-        runtime, add = self.runtime, self.verdicts.add
-        for evaluate, one in properties:
-            if concluded := evaluate(one, runtime, *details):
-                add(concluded)
 
     def suspend(self) -> None:
         """Apply to the model what properties concluded."""

@@ -10,7 +10,9 @@ from ucm_cts.reference_models.conclusions import Broken, Concluded, Kept, Measur
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.life_cycle import Row
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
+from ucm_cts.reference_models.properties.declaration import Bound
 
 
 @dataclass(slots=True)
@@ -40,6 +42,16 @@ class Verdicts:
     readings: dict[str, set[str]] = field(default_factory=dict)
     measures: dict[str, int] = field(default_factory=dict)
     suspended: list[Member] = field(default_factory=list)
+
+    def evaluate(self, runtime: ObservedRuntime, properties: tuple[Bound, ...], *details: object) -> None:
+        """Add what ``properties`` conclude from ``details``."""
+        exercises = self.exercises
+        for evaluate, one in properties:
+            concluded = evaluate(one, runtime, *details)
+            if type(concluded) is str:  # kept: most are
+                exercises[concluded] = exercises.get(concluded, 0) + 1
+            elif concluded:
+                self.add(concluded)
 
     def add(self, concluded: Concluded) -> None:
         """Add what a property concludes."""

@@ -64,7 +64,7 @@ def bare(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("bare")
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(folder)
-    names = [module for modules in EXTRAS.values() for module in modules]
+    names = ["pelix", *(module for modules in EXTRAS.values() for module in modules)]
     (folder / "sitecustomize.py").write_text(
         f"import sys\n"
         f"class Absent:\n"
@@ -158,6 +158,8 @@ class TestBare:
             (("selftest", "--toolchains", "--list"), r"pip install 'ucm-cts\[toolchain\]'"),
             (("verify", "acme.ucmcert", "--trust", "keys"), r"pip install 'ucm-cts\[certificates\]'"),
             (("compare", "--baseline", "a.ucmcert", "b.ucmcert"), r"pip install 'ucm-cts\[certificates\]'"),
+            (("ics", "--toolchain", "chain.toml"), r"pip install 'ucm-cts\[toolchain\]'"),
+            (("run", "ipopo"), r"pip install 'ucm-cts\[ipopo\]'"),
             (("history",), r"pip install 'ucm-cts\[history\]'"),
             (("run", "reference-cpp"), "install a C[+][+] compiler, cmake and nlohmann-json3-dev"),
             (("--cmakedir",), "install a C[+][+] compiler, cmake and nlohmann-json3-dev"),

@@ -80,33 +80,45 @@ def fields(step: type[Value]) -> tuple[tuple[str, Trait], ...]:
     return tuple(sorted(found, key=lambda one: order.index(one[1].kind) if isinstance(one[1], Uses) else -1))
 
 
+@functools.cache
+def _using(step: type[Value]) -> tuple[tuple[str, Uses], ...]:
+    return tuple((field, trait) for field, trait in fields(step) if isinstance(trait, Uses))
+
+
+@functools.cache
+def _binding(step: type[Value]) -> tuple[tuple[str, Binds], ...]:
+    return tuple((field, trait) for field, trait in fields(step) if isinstance(trait, Binds))
+
+
 def uses(step: Value) -> tuple[tuple[str, Uses], ...]:
     """The variables that ``step`` reads, each with the trait of its field."""
     found: list[tuple[str, Uses]] = []
-    for field, trait in fields(type(step)):
-        if isinstance(trait, Uses):
-            value = getattr(step, field)
-            found += [(variable, trait) for variable in ((value,) if isinstance(value, str) else value)]
+    for field, trait in _using(type(step)):
+        value = getattr(step, field)
+        found += [(variable, trait) for variable in ((value,) if isinstance(value, str) else value)]
     return tuple(found)
 
 
 def used_by(step: Value) -> tuple[str, ...]:
     """The variables that ``step`` reads."""
-    return tuple(variable for variable, _ in uses(step))
+    found: list[str] = []
+    for field, _ in _using(type(step)):
+        value = getattr(step, field)
+        found += (value,) if isinstance(value, str) else value
+    return tuple(found)
 
 
 def bindings(step: Value) -> tuple[tuple[str, Kind], ...]:
     """The variables that ``step`` binds, each with the kind of thing that it then holds."""
     return tuple(
-        (getattr(step, field) or getattr(step, trait.otherwise), trait.kind)
-        for field, trait in fields(type(step))
-        if isinstance(trait, Binds)
+        [(getattr(step, field) or getattr(step, trait.otherwise), trait.kind) for field, trait in _binding(type(step))]
     )
 
 
 def bound_by(step: Value) -> tuple[str, ...]:
     """The variables that ``step`` binds."""
-    return tuple(variable for variable, _ in bindings(step))
+    bound = _binding(type(step))
+    return tuple([getattr(step, field) or getattr(step, trait.otherwise) for field, trait in bound]) if bound else ()
 
 
 def named(step: Value, subject: Subject) -> tuple[str, ...]:

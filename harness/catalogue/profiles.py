@@ -11,7 +11,7 @@ TOOLCHAIN_PROFILES = ("pim", "idl", "cpp11", "cpp03")
 """Of tool chains, behind command lines."""
 
 PROFILES = (*FRAMEWORK_PROFILES, *TOOLCHAIN_PROFILES)
-"""What a run can choose, once nothing of it is pending."""
+"""What a run can choose; nothing of them is pending. What is filed under another name, as ``extensions``, is in the making."""
 
 PARTS: Mapping[str, tuple[str, ...]] = {
     "container": ("container",),

@@ -93,6 +93,7 @@ def load_requirements() -> tuple[Requirement, ...]:
     return tuple(r for path in sorted((SUITE / "requirements").glob("*.yaml")) for r in read(path, list[Requirement]))
 
 
+@functools.cache
 def in_the_making(profile: str) -> str:
     """Why a run cannot choose ``profile`` yet; empty for a complete or unknown profile."""
     requirements = [r for r in load_requirements() if r.profile in PARTS.get(profile, (profile,))]
@@ -119,11 +120,17 @@ def load_interpretations() -> tuple[Interpretation, ...]:
 _INTERPRETATIONS = {
     "container": "clause_11.yaml",
     "core": "clause_10_1.yaml",
+    "extensions": "clause_10_extensions_*.yaml",
     "pim": "clause_9*.yaml",
     "idl": "clause_12.yaml",
     "cpp": "clause_13.yaml",
 }
 """Where the decisions about unclear places are, by the part of a profile that asks first."""
+
+
+def declarable() -> tuple[Interpretation, ...]:
+    """The decisions whose options a vendor can declare: not those of a profile in the making, which nothing reads yet."""
+    return tuple(entry for entry in load_interpretations() if not in_the_making(entry.profile))
 
 
 class Capability(Value, frozen=True):
@@ -166,8 +173,8 @@ def load_capabilities() -> Capabilities:
 
 @functools.cache
 def load_options() -> Mapping[str, tuple[str, ...]]:
-    """The values of all options of the interpretations; the first one holds unless the vendor declares another."""
-    return {option: values for entry in load_interpretations() for option, values in entry.options.items()}
+    """The values of all options that a vendor can declare; the first one holds unless the vendor declares another."""
+    return {option: values for entry in declarable() for option, values in entry.options.items()}
 
 
 @functools.cache

@@ -23,8 +23,10 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import without_waiting
 from ucm_cts.harness.certificates.contents import Descriptor, digest
 from ucm_cts.harness.certificates.envelopes import Opened, decoded, encoded, opened, signed
-from ucm_cts.harness.certificates.problems import unreadable
+from ucm_cts.harness.certificates.keys import NOBODY, Trust
+from ucm_cts.harness.certificates.problems import Unreadable, unreadable
 from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.results.foreign import one_line
 
 COMMITMENT_TYPE = "application/vnd.ucm-cts.commitment+json"
 CHALLENGE_TYPE = "application/vnd.ucm-cts.challenge+json"
@@ -97,15 +99,44 @@ def committed(commitment: Commitment, signers: Sequence[CryptoSigner]) -> bytes:
     return signed(encoded(commitment), COMMITMENT_TYPE, signers)
 
 
-def challenged(commitment: bytes, signer: CryptoSigner, key: Path) -> tuple[bytes, Challenge]:
-    """The auditor's answer to ``commitment``, with its entry in the ledger beside ``key``. Raises ``Unreadable`` and ``WrongUse``."""
-    what, _ = _commitment(commitment)
+def challenged(
+    commitment: bytes, signer: CryptoSigner, key: Path, trust: Trust = NOBODY
+) -> tuple[bytes, Challenge, tuple[str, ...]]:
+    """The auditor's answer to ``commitment``, with its entry in the ledger beside ``key``, and the names of who signed the commitment.
+
+    Unless ``trust`` is empty, one of its keys must have signed it. Raises ``Unreadable`` and ``WrongUse``.
+    """
+    what, envelope = _commitment(commitment)
+    vendors = _vendors(what, envelope, trust) if trust else ()
     with _ledger(key) as (entries, add):
         same = [e for e in entries if (e.product, e.version, e.profile) == (what.product, what.version, what.profile)]
         challenge = Challenge(digest(commitment), secrets.token_hex(NONCE), len(same) + 1, now())
         answer = signed(encoded(challenge), CHALLENGE_TYPE, [signer])
         add(_Entry(what.product, what.version, what.profile, challenge))
-    return encoded(Challenged(commitment.decode(), answer.decode())), challenge
+    return encoded(Challenged(commitment.decode(), answer.decode())), challenge, vendors
+
+
+def _vendors(what: Commitment, envelope: Opened, trust: Trust) -> tuple[str, ...]:
+    """Whose keys of ``trust`` signed the commitment. Raises ``Unreadable`` if nobody's did that may speak for the product."""
+    signed, problems = envelope.who(trust, "the commitment")
+    if problems:
+        raise Unreadable(*problems)
+    if not signed:
+        raise unreadable(
+            "commitment",
+            f"none of the keys that you trust in '{trust.source}' signed the commitment; ask the vendor, by another way, which key is theirs",
+        )
+    for key in signed:
+        if key.rule.lost:
+            raise unreadable(
+                "commitment", f"key '{key.name}', which signed the commitment, was lost on {key.rule.lost}"
+            )
+        if not key.vouches_for(what.product):
+            raise unreadable(
+                "commitment",
+                f"key '{key.name}', which signed the commitment, does not vouch for '{one_line(what.product, 80)}'",
+            )
+    return tuple(key.name for key in signed)
 
 
 def answered(content: bytes) -> Answered:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import msgspec
@@ -25,10 +26,11 @@ from ucm_cts.harness.results.values import Report
 
 @dataclass(frozen=True)
 class JudgedAgain:
-    """The report that a record shows; with ``problems``, of a part of the run only."""
+    """The report that a record shows; with ``problems``, of a part of the run only. ``unshown``: what the record says without a trace."""
 
     report: ReportEntry
     problems: tuple[Problem, ...] = ()
+    unshown: tuple[str, ...] = ()
 
 
 def judged_again(contents: Contents, statement: Statement, is_delta: bool) -> JudgedAgain:
@@ -59,7 +61,8 @@ def judged_again(contents: Contents, statement: Statement, is_delta: bool) -> Ju
         incident_seconds=settings.incident_time,
     )
     judged = judge_again(record, plan)
-    return JudgedAgain(entry_of(judged.report), tuple(Problem("record", problem) for problem in judged.problems))
+    problems = tuple(Problem("record", problem) for problem in judged.problems)
+    return JudgedAgain(entry_of(judged.report), problems, judged.unshown)
 
 
 def _of_toolchain(contents: Contents, claims: Claims, statement: Statement, is_delta: bool) -> JudgedAgain:
@@ -83,7 +86,28 @@ def _of_toolchain(contents: Contents, claims: Claims, statement: Statement, is_d
         judged = judge_toolchain_again(record, plan, contents.is_vouched_for, is_delta=is_delta)
     except (recorded_form.RecordError, WrongUse) as error:
         raise unreadable("record", one_line(str(error), 400)) from None
-    return JudgedAgain(entry_of(judged.report), tuple(Problem("record", problem) for problem in judged.problems))
+    shown = entry_of(judged.report)
+    problems = (
+        *judged.problems,
+        *(unfinished_compilations(contents.report, shown) if contents.report and not is_delta else ()),
+    )
+    return JudgedAgain(shown, tuple(Problem("record", problem) for problem in problems))
+
+
+def unfinished_compilations(said: ReportEntry, shown: ReportEntry) -> Iterator[str]:
+    """The first difference between the reports ``said`` and ``shown`` that a compiler without an end explains, as a line.
+
+    Compilers run again when the record of a tool chain is judged. On a very busy machine one may not end in time, which says nothing about the product.
+    """
+    from ucm_cts.harness.toolchains.commands.bounded import NO_END
+
+    before = {entry.id: entry for entry in said.requirements}
+    for entry in shown.requirements:
+        other = before.get(entry.id, entry)
+        for which, reason in (("here", entry.reason), ("when it was made", other.reason)):
+            if other.verdict != entry.verdict and NO_END in reason:
+                yield f"not judged: {which}, {one_line(reason, 200)}; try again when the machine is less busy"
+                return
 
 
 def _with_old(shown: ReportEntry, old: ReportEntry | None) -> ReportEntry:

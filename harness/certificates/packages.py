@@ -7,10 +7,12 @@ import functools
 import hashlib
 import importlib.machinery
 import importlib.metadata
+import itertools
 import os
 import re
 import sys
-from collections.abc import Iterator
+import sysconfig
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import ucm_cts
@@ -21,18 +23,57 @@ _OURS = Path(ucm_cts.__file__).parent
 _SUITE = ("harness", "suite", "reference_models", "adapters.contract", "adapters.sdk")
 """What the digest of the suite has; it is no part of a product."""
 
+_INSTALLED = ("site-packages", "dist-packages")
+_DEPTH = 4
+"""How many parts the name of a bundled adapter's package has, as ``ucm_cts.adapters.reference.python``."""
+
 _CODE = (".py", ".so", ".pyd")
 MOST_FILES = 20_000
 
 
-def packages_of(adapter_file: str) -> tuple[Subject, ...]:
+def packages_of(adapter_file: str, loaded: Iterable[str] = ()) -> tuple[Subject, ...]:
     """A digest of each Python package, or module, that the adapter in ``adapter_file`` imports, and of its own.
 
-    Packages that those need are found by what their distributions require. Python's own library is not among them.
+    Packages that those need are found by what their distributions require. ``loaded``: the files of further modules, whose packages are
+    added. Python's own library is not among them.
     """
-    if not os.path.isfile(adapter_file) or not (adapter_file.endswith(".py") or _is_script(Path(adapter_file))):
-        return ()
+    places = _imported_places(adapter_file)
+    for file in map(Path, loaded):
+        place = _package_around(file)
+        if place is None or any(known in (file, *file.parents) for known in places.values()):
+            continue
+        base = place.stem if place.is_file() else place.name
+        name = base
+        for number in itertools.count(2):
+            if name not in places:
+                break
+            name = f"{base} ({number})"
+        places[name] = place
+    return tuple(Subject(f"package/{one_line(name)}", _digest_of(place)) for name, place in sorted(places.items()))
+
+
+def _package_around(file: Path) -> Path | None:
+    """The outermost package that has the module in ``file``, or ``file``; None if it is of Python's own library or of the suite."""
+    if not file.is_file():
+        return None
+    for library in {Path(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib")}:
+        if file.is_relative_to(library) and file.relative_to(library).parts[0] not in _INSTALLED:
+            return None
+    if file.is_relative_to(_OURS):
+        parts = file.relative_to(_OURS.parent).with_suffix("").parts
+        bundled = _package_in(".".join(parts)) if parts[-1] != "__init__" or len(parts) > _DEPTH else ""
+        return _place_of(bundled, file.parent) if bundled else None
+    place = file
+    while (place.parent / "__init__.py").is_file():
+        place = place.parent
+    return place
+
+
+def _imported_places(adapter_file: str) -> dict[str, Path]:
+    """The packages that the adapter imports by statements, each with its place."""
     places: dict[str, Path] = {}
+    if not os.path.isfile(adapter_file) or not (adapter_file.endswith(".py") or _is_script(Path(adapter_file))):
+        return places
     own = _own(Path(adapter_file))
     places[own.stem if own.is_file() else own.name] = own
     waiting = list(_imported(own))
@@ -47,7 +88,7 @@ def packages_of(adapter_file: str) -> tuple[Subject, ...]:
             continue
         places.setdefault(name, place)
         waiting += _needed_by(name)
-    return tuple(Subject(f"package/{one_line(name)}", _digest_of(place)) for name, place in sorted(places.items()))
+    return places
 
 
 def _is_script(file: Path) -> bool:
@@ -86,7 +127,7 @@ def _package_in(name: str) -> str:
         return top
     if not rest.startswith("adapters.") or rest.startswith(_SUITE):
         return ""
-    return ".".join(name.split(".")[:4])
+    return ".".join(name.split(".")[:_DEPTH])
 
 
 def _place_of(name: str, beside: Path) -> Path | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -51,10 +52,14 @@ class RunPlan(Value, frozen=True):
 
 @dataclass(frozen=True)
 class Judged:
-    """``report``: what the record shows; if there are ``problems``, a line each, it may be of a part of the run."""
+    """``report``: what the record shows; if there are ``problems``, a line each, it may be of a part of the run.
+
+    ``unshown``: what the record says and no trace shows.
+    """
 
     report: FrameworkReport
     problems: tuple[str, ...]
+    unshown: tuple[str, ...] = ()
 
 
 def judge_again(record: Record, plan: RunPlan) -> Judged:
@@ -64,28 +69,42 @@ def judge_again(record: Record, plan: RunPlan) -> Judged:
     problems: list[str] = []
     if record.heading.seed != plan.seed:
         problems.append(f"the record is of seed {record.heading.seed}, and seed {plan.seed} is due")
-    try:
-        _judge(campaign, replay, plan)
-    except (Departure, WrongUse) as problem:
-        problems.append(one_line(str(problem), 400))
-    problems += replay.problems
+    departures = tuple(_judge(campaign, replay, plan))
+    problems += (*replay.problems, *departures)
     report = campaign.report("the record cannot be judged to its end" if problems else "")
-    return Judged(msgspec.structs.replace(report, started=replay.started), tuple(problems))
+    return Judged(msgspec.structs.replace(report, started=replay.started), tuple(problems), replay.unshown)
 
 
-def _judge(campaign: Campaign, replay: Replay, plan: RunPlan) -> None:
-    """What a run does, step by step. Raises ``Departure``."""
-    for _ in campaign.check(purposes_for(plan.statement, plan.profile, plan.systematic)):
-        pass
-    draw_scenarios(campaign, plan.seed, plan.drawn)
-    campaign.confirm()
-    for cause, answer in replay.shorter():
-        problem = campaign.take_shorter(cause, answer)
-        if problem:
-            raise Departure(
-                f"'{one_line(answer.name, 80)}' cannot show the failure of {one_line(cause[0], 40)}: {problem}"
-            )
-    replay.end()
+def _judge(campaign: Campaign, replay: Replay, plan: RunPlan) -> Iterator[str]:
+    """What a run does, step by step. Yields why a step could not be taken to its end.
+
+    What is drawn, and which scenarios are looked at again, follows from the traces before: with a problem there, nothing is drawn, and of
+    second looks only those are compared that are asked for and there.
+    """
+    try:
+        for _ in campaign.check(purposes_for(plan.statement, plan.profile, plan.systematic)):
+            pass
+        if replay.problems:
+            if plan.drawn:
+                yield f"none of the {plan.drawn} drawn scenarios was compared: they follow from the traces before"
+        else:
+            replay.is_drawing = True
+            draw_scenarios(campaign, plan.seed, plan.drawn)
+    except (Departure, WrongUse) as problem:
+        yield one_line(str(problem), 400)
+    try:
+        campaign.confirm()
+        if replay.problems:
+            return
+        for cause, answer in replay.shorter():
+            wrong = campaign.take_shorter(cause, answer)
+            if wrong:
+                raise Departure(
+                    f"'{one_line(answer.name, 80)}' cannot show the failure of {one_line(cause[0], 40)}: {wrong}"
+                )
+        replay.end()
+    except (Departure, WrongUse) as problem:
+        yield one_line(str(problem), 400)
 
 
 def without_clock(report: FrameworkReport) -> FrameworkReport:

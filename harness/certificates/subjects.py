@@ -29,8 +29,10 @@ def subjects_of(adapter_file: str, artifacts: Iterable[Path], loaded: Iterable[s
         _add(found, "artifact", path, _digest(path))
     if adapter_file:
         _add(found, "adapter", Path(adapter_file), _digest(Path(adapter_file)))
-    found |= {package.name: package for package in packages_of(adapter_file)}
-    for file in sorted(set(loaded)):
+    loaded = frozenset(loaded)
+    modules = sorted(file for file in loaded if file.endswith(".py"))
+    found |= {package.name: package for package in packages_of(adapter_file, modules)}
+    for file in sorted(loaded.difference(modules)):
         try:
             _add(found, "library", Path(file), _digest(Path(file)))
         except WrongUse:

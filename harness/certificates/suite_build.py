@@ -8,7 +8,7 @@ import importlib.metadata
 import platform
 import shutil
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import ucm_cts
@@ -17,7 +17,18 @@ from ucm_cts.harness.certificates.contents import Machine
 from ucm_cts.harness.results.foreign import one_line
 
 _ROOT = Path(ucm_cts.__file__).parent
-_JUDGING = ("suite", "reference_models", "harness", "adapters/contract", "adapters/sdk/python")
+_ROOMS = (
+    *("catalogue", "models", "purposes", "results", "hosting", "statement"),
+    *("execution", "exploring", "toolchains", "certificates"),
+)
+"""The rooms of the harness that make scenarios, run, record, judge and verify: those down to ``certificates``, but for ``history``."""
+_DERIVING = ("json_report.py", "order.py", "scope.py", "report.schema.json")
+"""What derives ``report.json``; the rest of that room writes pages."""
+_JUDGING = (
+    *("suite", "reference_models", "adapters/contract", "adapters/sdk/python"),
+    *(f"harness/{room}" for room in _ROOMS),
+    *(f"harness/report/{name}" for name in _DERIVING),
+)
 _CATALOGUE = (
     "suite/specification.yaml",
     "suite/requirements",
@@ -25,7 +36,8 @@ _CATALOGUE = (
     "suite/capabilities.yaml",
     "suite/life_cycle.yaml",
 )
-_OURS = (".py", ".yaml", ".json", ".xml", ".xsd", ".lark", ".jinja", ".css", ".js")
+_OURS = (".py", ".yaml", ".json", ".xml", ".xsd", ".lark")
+"""Code and data. Templates and stylesheets write text for people."""
 _SECONDS = 10
 
 
@@ -38,8 +50,16 @@ def specification() -> str:
 
 @functools.cache
 def suite_digest() -> str:
-    """The digest of all installed files that make scenarios, record and judge; compiled parts differ and are not among them."""
+    """The digest of all installed files that can change a verdict; compiled parts differ and are not among them.
+
+    Command line, pages, publishing, history, self-tests and bench are left out: a new stylesheet makes no new suite.
+    """
     return _digest_of(_JUDGING)
+
+
+def suite_files() -> tuple[Path, ...]:
+    """The files that ``suite_digest`` is made of, in their order."""
+    return tuple(_files_of(_JUDGING))
 
 
 @functools.cache
@@ -50,14 +70,17 @@ def catalogue_digest() -> str:
 
 def _digest_of(places: Iterable[str]) -> str:
     whole = hashlib.sha256()
+    for file in _files_of(places):
+        content = file.read_bytes()
+        whole.update(f"{file.relative_to(_ROOT).as_posix()}\0{len(content)}\0".encode())
+        whole.update(content)
+    return whole.hexdigest()
+
+
+def _files_of(places: Iterable[str]) -> Iterator[Path]:
     for place in places:
         start = _ROOT / place
-        files = [start] if start.is_file() else sorted(p for p in start.rglob("*") if p.suffix in _OURS)
-        for file in files:
-            content = file.read_bytes()
-            whole.update(f"{file.relative_to(_ROOT).as_posix()}\0{len(content)}\0".encode())
-            whole.update(content)
-    return whole.hexdigest()
+        yield from [start] if start.is_file() else sorted(p for p in start.rglob("*") if p.suffix in _OURS)
 
 
 @functools.cache

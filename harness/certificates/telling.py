@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ucm_cts.harness.certificates.verified import Verified
+from ucm_cts.harness.certificates.verified import Change, Verified
 from ucm_cts.harness.report.order import SEALS
 from ucm_cts.harness.results.foreign import clean
 
@@ -56,12 +56,27 @@ def _headline(verified: Verified, name: str) -> Iterator[str]:
 
 
 def _delta(verified: Verified, everything: bool) -> Iterator[str]:
+    new = [c for c in verified.changes if not c.old]
+    gone = [c for c in verified.changes if not c.new]
+    other = [c for c in verified.changes if c.old and c.new]
+    for changes, what in ((other, "requirements would change"), (new, "are new"), (gone, "are gone")):
+        if changes:
+            yield f"By today's rules {len(changes)} {what}:"
+            yield from _listed([_change(c) for c in changes], everything)
     if not verified.changes:
         yield "No requirement would change by today's rules."
-        return
-    yield f"By today's rules {len(verified.changes)} requirements would change:"
-    changes = [f"{c.requirement}: {c.old or 'not asked'} -> {c.new or 'not asked'}" for c in verified.changes]
-    yield from _listed(changes, everything)
+    open_ = [c.requirement for c in verified.changes if c.new == "inconclusive"]
+    yield "This suite does not decide:"
+    yield "  - whether the record has all scenarios and second looks of its run, and whether its traces can be true: the suite that made it does"
+    yield "  - what scenarios, or models, would show that this suite has and the old one had not"
+    if open_:
+        yield f"  - {len(open_)} requirements that the old traces do not show: {', '.join(open_ if everything else open_[:_FEW])}"
+
+
+def _change(change: Change) -> str:
+    if not change.old or not change.new:
+        return f"{change.requirement}: {change.new or 'it was ' + change.old}"
+    return f"{change.requirement}: {change.old} -> {change.new}"
 
 
 def _not_covered(verified: Verified, everything: bool) -> Iterator[str]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import datetime
 import tempfile
+import unicodedata
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +16,8 @@ from typing import Literal, Protocol
 import msgspec
 
 import ucm_cts
-from ucm_cts.harness.catalogue.profiles import PARTS, PROFILES
+from ucm_cts.harness.catalogue.documents import DocumentError
+from ucm_cts.harness.catalogue.profiles import PARTS, PROFILES, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_interpretations, load_requirements
 from ucm_cts.harness.certificates import archive
 from ucm_cts.harness.certificates.comparing import ON_THE_SIGNERS_WORD, differences, inconsistencies
@@ -23,8 +25,9 @@ from ucm_cts.harness.certificates.contents import CATALOGUE_FILES, SUITE_FILES, 
 from ucm_cts.harness.certificates.degrees import Assured, assured
 from ucm_cts.harness.certificates.keys import NOBODY, Trust, TrustedKey
 from ucm_cts.harness.certificates.problems import Problem, Unreadable
-from ucm_cts.harness.certificates.reading import Contents, day_of, moment_of, read_certificate
+from ucm_cts.harness.certificates.reading import Contents, read_certificate
 from ucm_cts.harness.certificates.suite_build import catalogue_digest, specification, suite_digest
+from ucm_cts.harness.certificates.times import wrong_times
 from ucm_cts.harness.certificates.verified import Change, Subject, Uncovered, Verified, Waiver
 from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
 from ucm_cts.harness.report.json_report import ReportEntry, StatementEntry
@@ -48,9 +51,25 @@ class Rederived(Protocol):
     @property
     def problems(self) -> tuple[Problem, ...]: ...
 
+    @property
+    def unshown(self) -> tuple[str, ...]:
+        """What the record says and no trace shows, as clauses that begin with "that"."""
+
 
 Judge = Callable[[Contents, Statement, bool], Rederived]
 """Judges the record of a certificate, with the statement and where its models are; True for the rules of another suite."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What the record of a certificate shows. ``report``: derived again; None if it could not be. ``changes``: by the rules of another
+    suite. ``problems``: of the record, and where the report says something else. ``unshown``: as in ``Rederived``.
+    """
+
+    report: ReportEntry | None = None
+    changes: tuple[Change, ...] = ()
+    problems: tuple[Problem, ...] = ()
+    unshown: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,17 +98,15 @@ class Verifier:
         problems += _statement(contents)
         settings = list(_settings(contents))
         problems += settings
-        problems += _times(contents, claims, self.today or datetime.datetime.now(datetime.UTC))
+        problems += wrong_times(contents, claims, self.today or datetime.datetime.now(datetime.UTC))
         mismatch = list(_suite(contents, claims))
         is_delta = bool(mismatch) and self.suite == "newer"
         problems += () if is_delta else mismatch
         degree = assured(contents, claims, signers, self.trust, self.auditors)
         problems += degree.problems
-        report, changes, wrong = (
-            (None, (), []) if settings else self._judged(contents, claims, is_delta, bool(mismatch))
-        )
-        problems += wrong
-        return self._verified(contents, claims, signers, degree, report, changes, problems, is_delta)
+        shown = Shown() if settings else self._judged(contents, claims, is_delta, bool(mismatch))
+        problems += shown.problems
+        return self._verified(contents, claims, signers, degree, shown, problems, is_delta)
 
     def _signers(self, contents: Contents, claims: Claims) -> tuple[tuple[TrustedKey, ...], list[Problem]]:
         assert contents.envelope is not None
@@ -126,15 +143,21 @@ class Verifier:
                 good.append(key)
         return tuple(good), wrong
 
-    def _judged(
-        self, contents: Contents, claims: Claims, is_delta: bool, is_other_suite: bool
-    ) -> tuple[ReportEntry | None, tuple[Change, ...], list[Problem]]:
-        """The report derived again, what changes by other rules, and what is wrong with record and report."""
+    def _strangers(self, contents: Contents) -> Iterator[str]:
+        """Signatures that say nothing to this verifier."""
+        assert contents.envelope is not None
+        known = {*self.trust.keys, *self.auditors.keys}
+        unknown = [id_ for id_ in contents.envelope.signatures if id_ not in known]
+        if unknown and len(unknown) < len(contents.envelope.signatures):
+            yield f"{len(unknown)} of its signatures are of keys that you do not trust: anybody can add one, and they were not checked"
+
+    def _judged(self, contents: Contents, claims: Claims, is_delta: bool, is_other_suite: bool) -> Shown:
+        """What the record shows, and what is wrong with it and with the report."""
         said, statement = contents.report, contents.statement
         if contents.record is None or said is None or statement is None or contents.waivers is None:
-            return None, (), []
+            return Shown()
         if contents.environment is None or claims.profile not in PROFILES or (is_other_suite and not is_delta):
-            return None, (), []
+            return Shown()
         with tempfile.TemporaryDirectory(prefix="ucm-cts-verify-") as folder:
             for name, text in contents.models.items():
                 (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogatepass")
@@ -142,7 +165,10 @@ class Verifier:
             try:
                 found = self.judge(contents, unpacked, is_delta)
             except Unreadable as wrong:
-                return None, (), list(wrong.problems)
+                return Shown(problems=wrong.problems)
+            except DocumentError as error:  # of a model: nothing else is read
+                told = one_line(str(error).replace(f"{folder}/", ""), 300)
+                return Shown(problems=(Problem("models", f"a model of the certificate cannot be used: {told}"),))
         word = {name: getattr(said, name) for name in ON_THE_SIGNERS_WORD}
         times = {entry.id: entry.seconds for entry in said.requirements}
         shown = msgspec.structs.replace(
@@ -154,10 +180,10 @@ class Verifier:
             ),
         )
         if is_delta:
-            return shown, _changes(said, shown), list(found.problems)
+            return Shown(shown, _changes(said, shown), found.problems)
         if found.problems:  # what is shown may be of a part of the run
-            return shown, (), list(found.problems)
-        return shown, (), list(differences(said, shown))
+            return Shown(shown, problems=found.problems)
+        return Shown(shown, problems=tuple(differences(said, shown)), unshown=found.unshown)
 
     def _verified(
         self,
@@ -165,12 +191,12 @@ class Verifier:
         claims: Claims,
         signers: tuple[TrustedKey, ...],
         degree: Assured,
-        report: ReportEntry | None,
-        changes: tuple[Change, ...],
+        shown: Shown,
         problems: list[Problem],
         is_delta: bool,
     ) -> Verified:
         assert contents.signed is not None
+        report = shown.report
         return Verified(
             digest=contents.digest,
             product=one_line(claims.product),
@@ -189,11 +215,11 @@ class Verifier:
             subjects=tuple(
                 Subject(one_line(one.name), one_line(one.digest.get("sha256", ""))) for one in contents.signed.subject
             ),
-            word=tuple(_on_the_word(claims, degree)),
+            word=(*_on_the_word(contents, claims, degree), *shown.unshown),
             judged_by=f"{ucm_cts.__version__}, build {suite_digest()[:12]}" if is_delta else "",
-            changes=changes,
+            changes=shown.changes,
             challenges=degree.number,
-            remarks=degree.remarks,
+            remarks=(*degree.remarks, *_look_alikes(claims), *self._strangers(contents)),
         )
 
 
@@ -282,32 +308,17 @@ def _settings(contents: Contents) -> Iterator[Problem]:
             yield Problem("settings", f"the run had {name} = {value}; it can be from {least} to {most}")
 
 
-def _times(contents: Contents, claims: Claims, now: datetime.datetime) -> Iterator[Problem]:
-    """What cannot be true of dates, and waivers that do not count any more."""
-    issued = moment_of(claims.issued)
-    if issued is None:
-        yield Problem("time", f"'{one_line(claims.issued, 60)}' is no moment at which it was signed")
-    elif issued > now + datetime.timedelta(days=1):
-        yield Problem("time", f"it was signed in the future, at {claims.issued}; set your clock, or ask who signed it")
-    started = moment_of(contents.report.started) if contents.report is not None else None
-    if contents.report is not None and started is None:
-        yield Problem("time", f"'{one_line(contents.report.started, 60)}' is no moment at which the run began")
-    if issued is not None and started is not None and started > issued:
-        yield Problem(
-            "time", f"the run began at {started.isoformat()}, after the certificate was signed at {claims.issued}"
-        )
-    for waiver in contents.waivers or ():
-        last = day_of(waiver.expires)
-        if last is not None and issued is not None and last < issued.date():
-            yield Problem(
-                "waiver",
-                f"the waiver of {waiver.requirement} had expired on {waiver.expires}, before the certificate was signed",
-            )
-        elif last is not None and last < now.date():
-            yield Problem(
-                "waiver expired",
-                f"the waiver of {waiver.requirement} expired on {waiver.expires}; ask for a new certificate",
-            )
+def _look_alikes(claims: Claims) -> Iterator[str]:
+    """Names that mix alphabets: letters that look alike may name somebody else."""
+    for what, name in (("product", claims.product), ("version", claims.version)):
+        odd = sorted({letter for letter in name if letter.isalpha() and not _is_latin(letter)})
+        if odd and any(letter.isalpha() and _is_latin(letter) for letter in name):
+            named = ", ".join(f"U+{ord(letter):04X} {unicodedata.name(letter, '')}".strip() for letter in odd[:3])
+            yield f"the {what} mixes alphabets, and may look like that of somebody else: {named}"
+
+
+def _is_latin(letter: str) -> bool:
+    return unicodedata.name(letter, "").startswith("LATIN ")
 
 
 def _suite(contents: Contents, claims: Claims) -> Iterator[Problem]:
@@ -360,13 +371,21 @@ def _uncovered(contents: Contents, report: ReportEntry | None) -> Uncovered:
     )
 
 
-def _on_the_word(claims: Claims, degree: Assured) -> Iterator[str]:
+def _on_the_word(contents: Contents, claims: Claims, degree: Assured) -> Iterator[str]:
     """What rests on the signer's word."""
+    is_toolchain = claims.profile in TOOLCHAIN_PROFILES
     if degree.assurance != "witnessed":
         yield "that the product ran at all: who forges every time and every event of a record carefully cannot be seen; a witnessed certificate is the answer"
-        yield "that the files named are those that ran, and that no others took part"
-        yield f"isolation ({one_line(claims.isolation, 20)}), warnings, the machine, clock gaps, and what hosts' processes held"
+        yield "that product and version are those named, that the files named are those that ran, and that no others took part"
+        processes = "how long calls took" if is_toolchain else "clock gaps, and what hosts' processes held"
+        yield f"isolation ({one_line(claims.isolation, 20)}), warnings, the machine, {processes}"
         yield "the dates"
+        if not is_toolchain and contents.environment is not None:
+            drawn = contents.environment.settings.drawn
+            shown = f"no more than {drawn} scenarios were drawn" if drawn else "no scenario was drawn"
+            yield f"that {shown}: a run may have been cut before one that failed"
     if degree.assurance == "self-declared":
         yield "that the seed was not chosen: the vendor may have run often and kept the best run"
+    if degree.assurance == "challenged":
+        yield "how often it ran with the auditor's seed: what fails now and then may have been run until it passed"
     yield "that the adapter passes on what the product does (docs/honesty.md says what an auditor checks)"

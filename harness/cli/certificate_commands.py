@@ -10,15 +10,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
-from click.core import ParameterSource
 
-from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.execution.driver import Limits
 from ucm_cts.harness.hosting.extras import need
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
 
 STANDS_NOT_CONFORMANT = 4
 """The exit status of ``verify`` for a certificate that stands, and does not say that the product is conformant."""
@@ -28,19 +25,22 @@ _key_option = click.option("--key", required=True, type=_FILE, help="Your privat
 _artifact_option = click.option(
     "--artifact", "artifacts", multiple=True, type=_FILE, help="A file of the product; it is named with its digest."
 )
-_known_option = click.option("--known-failures", type=_FILE, help="Failures expected for now.")
-_systematic_option = click.option(
-    "--systematic", type=click.IntRange(0, MOST_EXTRA), default=0, show_default=True, help="As for 'ucm-cts run'."
-)
 
 
 @click.command()
 @click.argument("name")
 @click.option(
-    "--out", type=click.Path(file_okay=False, path_type=Path), default=Path(), help="The folder for both files."
+    "--out",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path(),
+    show_default="this folder",
+    help="The folder for both files.",
 )
 def key(name: str, out: Path) -> None:
-    """Make a pair of keys: NAME.pem, which signs and is yours alone, and NAME.pub, for those who trust you."""
+    """Make a pair of keys, to sign certificates.
+
+    NAME.pem signs and is yours alone; NAME.pub is for those who trust you.
+    """
     need("certificates", "making keys")
     from ucm_cts.harness.certificates.keys import make_key
 
@@ -64,30 +64,21 @@ def key(name: str, out: Path) -> None:
     help="The folder for the report.",
 )
 @options.ics_option
-@_known_option
+@options.known_failures_option
 @options.toolchain_option
+@options.no_sandbox_option
 @options.seed_option
 @click.option("--challenge", type=_FILE, help="An auditor's challenge, which gives the seed.")
 @click.option("--witness", is_flag=True, help="You are the auditor, and --key is yours.")
 @options.timeout_option
-@click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
-@click.option(
-    "--incident-time",
-    type=options.Seconds(min=0),
-    default=Limits.incident_seconds,
-    show_default=True,
-    help="As for 'ucm-cts run'.",
-)
-@_systematic_option
-@click.option(
-    "--explore",
-    type=options.DrawnScenarios(or_none=True),
-    default="2s",
-    show_default=True,
-    help="As for 'ucm-cts run'.",
-)
-@click.option("--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement.")
+@options.memory_option
+@options.incident_time_option
+@options.systematic_option
+@options.explore_option
+@options.everything_option
+@click.pass_context
 def certify(
+    context: click.Context,
     adapter: str,
     profile: str,
     key: Path,
@@ -97,6 +88,7 @@ def certify(
     ics: Path | None,
     known_failures: Path | None,
     toolchain: Path | None,
+    no_sandbox: bool,
     seed: int | None,
     challenge: Path | None,
     witness: bool,
@@ -107,10 +99,10 @@ def certify(
     explore: options.Budget,
     everything: bool,
 ) -> None:
-    """Run a profile on ADAPTER, or a tool chain, as 'ucm-cts run' does, and sign what came out as a certificate.
+    """Test a product, and sign the outcome as a certificate.
 
-    It holds everything from which 'ucm-cts verify' derives each verdict again. A run that is not conformant is certified,
-    too, and the certificate says so; an incomplete one is not. Exit status: as of 'ucm-cts run'.
+    The test is that of 'ucm-cts run'. The certificate holds everything from which 'ucm-cts verify' derives each verdict
+    again. A run that is not conformant is certified, too, and the certificate says so; an incomplete one is not. Exit status: that of 'ucm-cts run'.
     """
     need("certificates", "certifying")
     from ucm_cts.harness.cli.certificate_run import CertificateKeeper, Wanted, certify_toolchain_run
@@ -121,18 +113,23 @@ def certify(
     if challenge is not None and (seed is not None or witness):
         raise WrongUse("the challenge gives the seed, and is for vendors: leave out --seed and --witness")
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
+    profile = options.profile_for(context, toolchain, profile)
     if toolchain is not None:
-        if adapter or challenge is not None:
-            raise WrongUse("--toolchain names a tool chain: leave out ADAPTER; challenges are for frameworks")
-        source = click.get_current_context().get_parameter_source("profile")
-        chosen = profile if source is ParameterSource.COMMANDLINE else TOOLCHAIN_PROFILES[0]
-        if chosen not in TOOLCHAIN_PROFILES:
-            raise WrongUse(f"profile '{chosen}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
         certify_toolchain_run(
-            wanted, ToolChainRun(toolchain, chosen, "", report, known_failures, ics, drawn, everything)
+            wanted,
+            ToolChainRun(
+                toolchain,
+                profile,
+                "",
+                report,
+                known_failures,
+                ics,
+                drawn,
+                everything,
+                sandbox=not no_sandbox,
+                hidden=(key, out),
+            ),
         )
-    if profile in TOOLCHAIN_PROFILES:
-        raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
     keeper = CertificateKeeper(wanted, profile, systematic)
     certify_framework(
         FrameworkRun(
@@ -145,6 +142,7 @@ def certify(
             ics=ics,
             repeat=1,
             in_process=False,
+            sandbox=not no_sandbox,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,
             explore=explore,
@@ -174,12 +172,12 @@ def certify(
     help="newer: judge a certificate of another suite by the rules of this one, and say what would change.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print what was found out as JSON.")
-@click.option("--all", "everything", is_flag=True, help="Cut no list.")
+@click.option("--all", "everything", is_flag=True, help="Print every list whole.")
 def verify(file: Path, trust: Path | None, auditor: Path | None, suite: str, as_json: bool, everything: bool) -> None:
-    """Check the certificate in FILE, judge its record again, and say what it is worth.
+    """Check a certificate, and derive its verdicts again.
 
-    Needs neither network nor product. All problems are told at once. Exit status: 0 it stands and says conformant, 1 it
-    does not stand, 4 it stands and says something else than conformant, 2 wrong use, 3 the harness failed.
+    It needs neither network nor product. All problems are told at once. Exit status: 0 it stands and says conformant, 1 it
+    does not stand, 4 it stands and says something else than conformant, 2 wrong use, 3 UCM-CTS itself failed.
     """
     need("certificates", "verifying")
     from ucm_cts.harness.certificates.judging import judged_again
@@ -216,22 +214,29 @@ def verify(file: Path, trust: Path | None, auditor: Path | None, suite: str, as_
 @_key_option
 @_artifact_option
 @options.ics_option
-@_known_option
-@_systematic_option
+@options.known_failures_option
+@options.toolchain_option
+@options.no_sandbox_option
+@options.systematic_option
 @options.out_file("commitment.json", "The commitment, for the auditor.")
+@click.pass_context
 def commit(
+    context: click.Context,
     adapter: str,
     profile: str,
     key: Path,
     artifacts: Sequence[Path],
     ics: Path | None,
     known_failures: Path | None,
+    toolchain: Path | None,
+    no_sandbox: bool,
     systematic: int,
     out: Path,
 ) -> None:
-    """Commit to a product, its statement and a profile, before the seed is known.
+    """Commit to a product before the seed is known.
 
-    An auditor answers with 'ucm-cts challenge', and 'ucm-cts certify --challenge' runs with the seed that follows from both.
+    The commitment names its files, statement and profile. An auditor answers with 'ucm-cts challenge', and 'ucm-cts certify
+    --challenge' runs with the seed that follows from both.
     """
     need("certificates", "committing")
     from ucm_cts.harness.certificates.challenges import committed
@@ -240,7 +245,17 @@ def commit(
 
     signer = signer_of(key)
     check_new(out)
-    commitment = Committing(adapter, profile, tuple(artifacts), ics, known_failures, systematic).commitment()
+    commitment = Committing(
+        adapter,
+        toolchain,
+        options.profile_for(context, toolchain, profile),
+        tuple(artifacts),
+        ics,
+        known_failures,
+        systematic,
+        sandbox=not no_sandbox,
+        hidden=(key, out),
+    ).commitment()
     write_new(out, committed(commitment, [signer]))
     console = Output()
     console.say(
@@ -252,28 +267,41 @@ def commit(
 @click.command()
 @click.argument("commitment", type=_FILE)
 @_key_option
+@click.option(
+    "--trust",
+    type=click.Path(path_type=Path),
+    help="The public keys of vendors, a folder or a file: one of them must have signed the commitment.",
+)
 @options.out_file("challenge.json", "The challenge, for the vendor.")
-def challenge(commitment: Path, key: Path, out: Path) -> None:
-    """Answer a vendor's COMMITMENT, as an auditor, with a nonce that decides the seed.
+def challenge(commitment: Path, key: Path, trust: Path | None, out: Path) -> None:
+    """Answer a vendor's commitment, as an auditor.
 
-    The ledger beside the key counts the challenges for each product: a vendor who asks often may be choosing.
+    The challenge has a random number that decides the seed. The ledger beside the key counts the challenges for each product:
+    a vendor who asks often may be choosing.
     """
     need("certificates", "challenging")
     from ucm_cts.harness.certificates.challenges import challenged, read_small
-    from ucm_cts.harness.certificates.keys import signer_of
+    from ucm_cts.harness.certificates.keys import NOBODY, signer_of, trust_in
     from ucm_cts.harness.certificates.problems import Unreadable
     from ucm_cts.harness.cli.certificate_run import check_new, write_new
 
     signer = signer_of(key)
     check_new(out)
+    vendors = trust_in(trust) if trust is not None else NOBODY
     try:
-        answer, given = challenged(read_small(commitment, "a commitment of 'ucm-cts commit'"), signer, key)
+        content = read_small(commitment, "a commitment of 'ucm-cts commit'")
+        answer, given, signers = challenged(content, signer, key, vendors)
     except Unreadable as wrong:
         raise WrongUse(f"'{commitment}': {wrong}") from None
     write_new(out, answer)
     console = Output()
     console.say(
         f"{out} is challenge number {given.number} for this product, version and profile; give it to the vendor"
+    )
+    console.say(
+        f"the commitment is signed by {', '.join(signers)}"
+        if signers
+        else "nobody checked who signed the commitment: --trust KEYS, with the vendor's public key, does"
     )
     options.leave(console, options.CONFORMANT)
 

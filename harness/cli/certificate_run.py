@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -19,12 +20,18 @@ from ucm_cts.harness.certificates.problems import Unreadable
 from ucm_cts.harness.certificates.subjects import subjects_of, subjects_of_toolchain
 from ucm_cts.harness.certificates.suite_build import suite_digest
 from ucm_cts.harness.certificates.toolchain_rejudging import why_not_judged
-from ucm_cts.harness.certificates.verified import Subject
+from ucm_cts.harness.certificates.verified import Assurance, Subject
 from ucm_cts.harness.certificates.verifying import Verifier
 from ucm_cts.harness.cli.framework_run import FrameworkRun
 from ucm_cts.harness.cli.options import leave_with
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
-from ucm_cts.harness.cli.toolchain_command import ToolChainRan, ToolChainRun, run_toolchain
+from ucm_cts.harness.cli.toolchain_command import (
+    ToolChainRan,
+    ToolChainRun,
+    prepare,
+    run_toolchain,
+    stated_of_toolchain,
+)
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.offers import LIMITS
 from ucm_cts.harness.execution.recording import RecordingDriver, encoded
@@ -35,7 +42,7 @@ from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import KnownFailure, known_today
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import FrameworkReport
-from ucm_cts.harness.statement.files import check_subject, stated_by
+from ucm_cts.harness.statement.files import Identity, check_subject, stated_by
 from ucm_cts.harness.toolchains import recorded_form
 from ucm_cts.harness.toolchains.campaign import TASKS
 from ucm_cts.harness.toolchains.commands.description import read_toolchain
@@ -62,24 +69,13 @@ class CertificateKeeper:
         self._signer = signer_of(wanted.key)
         check_new(wanted.out)
         subjects_of("", wanted.artifacts, ()) if wanted.artifacts else None
-        self._challenge = b""
-        self._answer: Answered | None = None
+        self._task = _Task.of(wanted, profile)
         self._subjects: tuple[Subject, ...] = ()
-        if wanted.challenge is not None:
-            self._challenge = read_small(wanted.challenge, "a challenge of 'ucm-cts challenge'")
-            try:
-                self._answer = answered(self._challenge)
-            except Unreadable as wrong:
-                raise WrongUse(f"'{wanted.challenge}': {wrong}") from None
-            if self._answer.commitment.profile != profile:
-                raise WrongUse(
-                    f"the challenge is for profile '{one_line(self._answer.commitment.profile, 40)}'; give it with --profile"
-                )
 
     @property
     def seed(self) -> int | None:
         """The seed that the challenge gives; None without one."""
-        return self._answer.seed if self._answer is not None else None
+        return self._task.seed
 
     def driver(self, endpoint: Endpoint, seed: int, limits: Limits) -> Driver:
         """A driver that records the run."""
@@ -89,18 +85,7 @@ class CertificateKeeper:
         """The run can begin: does it keep the commitment? Raises ``WrongUse``."""
         models_of(statement)
         subjects = subjects_of(driver.adapter_file, self._wanted.artifacts, ())
-        if self._answer is None:
-            return
-        made = self._answer.commitment
-        identity = driver.identity
-        ours = _commitment(
-            identity.product, identity.version, made.profile, subjects, statement, known, self._systematic
-        )
-        for name in ("product", "version", "statement", "waivers", "suite", "systematic", "subjects"):
-            if getattr(made, name) != getattr(ours, name):
-                raise WrongUse(
-                    f"the vendor committed to another {name} than this run would have; restore it, or commit anew: ucm-cts commit"
-                )
+        self._task.check(driver.identity, subjects, statement, known, self._systematic)
 
     def measured(self, driver: Driver) -> None:
         """The run has ended, and its hosts are still there."""
@@ -125,55 +110,120 @@ class CertificateKeeper:
                 wanted.systematic,
                 report.effort.measures.get(DRAWN_SCENARIOS, 0),
             ),
-            assurance="witnessed"
-            if self._wanted.witness
-            else "challenged"
-            if self._answer is not None
-            else "self-declared",
-            challenge=self._challenge,
+            assurance=self._task.assurance,
+            challenge=self._task.challenge,
         )
         return _written(certificate(run, [self._signer]), self._signer, self._wanted.out)
 
 
 @dataclass(frozen=True)
 class Committing:
-    """What a vendor commits to: the arguments of ``ucm-cts commit``."""
+    """What a vendor commits to: the arguments of ``ucm-cts commit``. ``hidden``: what hosts must not see."""
 
     adapter: str
+    toolchain: Path | None
     profile: str
     artifacts: tuple[Path, ...]
     ics: Path | None
     known_failures: Path | None
     systematic: int
+    sandbox: bool
+    hidden: tuple[Path, ...]
 
     def commitment(self) -> Commitment:
         """The commitment, as of now. Raises ``WrongUse``, ``DocumentError`` and ``HostUnavailable``."""
-        endpoint = locate(self.adapter)
         known = known_today(self.known_failures)
-        statement = stated_by(self.ics, self.adapter)
+        if self.toolchain is not None:
+            return self._to_toolchain(self.toolchain, known)
+        endpoint = locate(self.adapter, sandbox=self.sandbox, hidden=self.hidden)
+        statement = stated_by(self.ics, self.adapter, self.sandbox)
         with ends_like_interrupts(), Driver(endpoint, 0, LIMITS) as driver:
             identity = driver.identity
             check_subject(statement, identity, self.profile)
             subjects = subjects_of(driver.adapter_file, self.artifacts, ())
-        return _commitment(
-            identity.product, identity.version, self.profile, subjects, statement, known, self.systematic
-        )
+        return _commitment(identity, self.profile, subjects, statement, known, self.systematic)
+
+    def _to_toolchain(self, path: Path, known: Sequence[KnownFailure]) -> Commitment:
+        toolchain = read_toolchain(path)
+        if toolchain.command_for(TASKS[self.profile]) is None:
+            raise WrongUse(
+                f"{path} does not say how '{TASKS[self.profile]}' is done, which profile '{self.profile}' needs"
+            )
+        statement = stated_of_toolchain(self.ics, toolchain, self.profile)
+        subjects = subjects_of_toolchain(toolchain, TASKS[self.profile], self.artifacts)
+        return _commitment(toolchain, self.profile, subjects, statement, known, 0)
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What an auditor asked for, or did himself: the content of the ``challenge`` in ``file`` and the ``answer`` to it, if there is one."""
+
+    file: Path | None = None
+    challenge: bytes = b""
+    answer: Answered | None = None
+    is_witness: bool = False
+
+    @classmethod
+    def of(cls, wanted: Wanted, profile: str) -> _Task:
+        """What ``wanted`` says, for a run of ``profile``. Raises ``WrongUse``."""
+        if wanted.challenge is None:
+            return cls(is_witness=wanted.witness)
+        content = read_small(wanted.challenge, "a challenge of 'ucm-cts challenge'")
+        try:
+            answer = answered(content)
+        except Unreadable as wrong:
+            raise WrongUse(f"'{wanted.challenge}': {wrong}") from None
+        if answer.commitment.profile != profile:
+            raise WrongUse(
+                f"the challenge is for profile '{one_line(answer.commitment.profile, 40)}'; give it with --profile"
+            )
+        return cls(wanted.challenge, content, answer)
+
+    @property
+    def seed(self) -> int | None:
+        return self.answer.seed if self.answer is not None else None
+
+    @property
+    def assurance(self) -> Assurance:
+        if self.is_witness:
+            return "witnessed"
+        return "challenged" if self.answer is not None else "self-declared"
+
+    def check(
+        self,
+        identity: Identity,
+        subjects: tuple[Subject, ...],
+        statement: Statement,
+        known: Sequence[KnownFailure],
+        systematic: int,
+    ) -> None:
+        """Raise ``WrongUse`` if a run of this would not keep the commitment."""
+        if self.answer is None:
+            return
+        made = self.answer.commitment
+        ours = _commitment(identity, made.profile, subjects, statement, known, systematic)
+        for problem in unlike(made, ours):
+            raise WrongUse(f"'{self.file}': {problem}; or commit anew: ucm-cts commit")
 
 
 def certify_toolchain_run(wanted: Wanted, run: ToolChainRun) -> NoReturn:
     """Run a tool chain, write report and certificate, and end. Raises ``WrongUse`` and ``DocumentError``."""
     signer = signer_of(wanted.key)
     check_new(wanted.out)
+    asked = _Task.of(wanted, run.profile)
+    if asked.seed is not None:
+        run = replace(run, seed=asked.seed)
     console = Output()
     with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(run.out) as folder:
-        toolchain = read_toolchain(run.path)
-        task = TASKS[run.profile]
+        prepared = prepare(run)
+        toolchain, task = prepared.toolchain, TASKS[run.profile]
         described = toolchain.command_for(task)
         why = why_not_judged(described, task) if described is not None else ""
         if why:
             raise WrongUse(f"nobody could verify the certificate: {why}")
         subjects = subjects_of_toolchain(toolchain, task, wanted.artifacts)
-        ran = run_toolchain(run, console, interrupts)
+        asked.check(toolchain, subjects, prepared.statement, prepared.known, 0)
+        ran = run_toolchain(prepared, console, interrupts)
         saved = keep_report(ran.report, folder)
         record, problem = _record_of(ran)
         if problem:
@@ -186,7 +236,8 @@ def certify_toolchain_run(wanted: Wanted, run: ToolChainRun) -> NoReturn:
                 waivers=tuple(ran.known),
                 subjects=subjects,
                 settings=Settings(toolchain.seconds, toolchain.memory, 0.0, 0, 0),
-                assurance="witnessed" if wanted.witness else "self-declared",
+                assurance=asked.assurance,
+                challenge=asked.challenge,
             )
             console.say(_written(certificate(made, [signer]), signer, wanted.out))
         leave_with(console, ran.report, saved, ran.known, run.everything)
@@ -217,17 +268,16 @@ def _written(content: bytes, signer: CryptoSigner, out: Path) -> str:
 
 
 def _commitment(
-    product: str,
-    version: str,
+    identity: Identity,
     profile: str,
     subjects: tuple[Subject, ...],
     statement: Statement,
-    known: tuple[KnownFailure, ...],
+    known: Sequence[KnownFailure],
     systematic: int,
 ) -> Commitment:
     return Commitment(
-        product=one_line(product),
-        version=one_line(version),
+        product=one_line(identity.product),
+        version=one_line(identity.version),
         profile=profile,
         subjects=descriptors({subject.name: subject.sha256 for subject in subjects}),
         statement=digest(statement_member(statement)),
@@ -236,6 +286,31 @@ def _commitment(
         systematic=systematic,
         made=now(),
     )
+
+
+def unlike(made: Commitment, ours: Commitment) -> Iterator[str]:
+    """What this run would have otherwise than the vendor committed to, each with its remedy."""
+    for what in ("product", "version"):
+        said, found = getattr(made, what), getattr(ours, what)
+        if said != found:
+            yield f"the vendor committed to {what} '{one_line(said, 60)}', and this is '{one_line(found, 60)}'; name the adapter of that one"
+    for differ, what, remedy in (
+        (made.statement != ours.statement, "another statement", "give the same file with --ics"),
+        (made.waivers != ours.waivers, "other known failures", "give the same file with --known-failures"),
+        (made.suite != ours.suite, "another build of ucm-cts", "run that one"),
+        (made.systematic != ours.systematic, f"--systematic {made.systematic}", "give the same"),
+    ):
+        if differ:
+            yield f"the vendor committed to {what}; {remedy}"
+    committed, there = ({one.name: one.digest for one in of.subjects} for of in (made, ours))
+    for name in committed:
+        if name not in there:
+            yield f"the vendor committed to '{one_line(name, 80)}', which takes no part in this run; name it with --artifact"
+        elif there[name] != committed[name]:
+            yield f"'{one_line(name, 80)}' is not the file that the vendor committed to: it was changed since; restore it"
+    for name in there:
+        if name not in committed:
+            yield f"'{one_line(name, 80)}' takes part in this run, and the vendor did not commit to it; leave it out"
 
 
 def check_new(path: Path) -> None:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import random
 import resource
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
-from click.core import ParameterSource
 
 import ucm_cts
 from ucm_cts.harness.catalogue.documents import DocumentError
@@ -30,11 +29,10 @@ from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.cli.toolchain_command import ToolChainRun, certify_toolchain, profiles_of
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.offers import LIMITS, offers_of
-from ucm_cts.harness.hosting.extras import remedy_for
+from ucm_cts.harness.hosting.extras import need, remedy_for
 from ucm_cts.harness.hosting.hosts import HostUnavailable
-from ucm_cts.harness.hosting.locate import WrongUse, locate
+from ucm_cts.harness.hosting.locate import HOW_TO_COMPILE, WrongUse, locate
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
-from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
 from ucm_cts.harness.report.diagrams.sequence_text import finding_text, printed_text, replay_text
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean
 from ucm_cts.harness.statement.files import stated_by
@@ -44,50 +42,61 @@ from ucm_cts.harness.toolchains.declarations import asked_of_declared
 from ucm_cts.reference_models.monitor import Monitor
 
 
+def _print_cmakedir(context: click.Context, _option: click.Parameter, is_asked: bool) -> None:
+    if not is_asked:
+        return
+    folder = Path(ucm_cts.__file__).parent / "share" / "cmake" / "ucm_cts"
+    if not folder.is_dir():
+        raise WrongUse(f"this installation has no CMake package: {HOW_TO_COMPILE}")
+    click.echo(folder)
+    context.exit()
+
+
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(ucm_cts.__version__, prog_name="ucm-cts")
+@click.option(
+    "--cmakedir",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_print_cmakedir,
+    help="Print where CMake finds the package for adapters in C++.",
+)
 def cli() -> None:
-    """Certify a UCM framework: does it do what the Unified Component Model says, and how do you know?"""
+    """Conformance tests for the Unified Component Model (UCM): test a product, certify it, verify certificates, publish."""
 
 
 @cli.command()
 @options.adapter_argument
 @options.profile_option
-@click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
+@click.option(
+    "-k",
+    "expression",
+    default="",
+    help="Test only what concerns this: a requirement, a clause, an operation or a part of such a name.",
+)
 @options.seed_option
 @options.out_folder("ucm-cts-report")
-@click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
+@options.known_failures_option
 @options.ics_option
 @options.toolchain_option
-@click.option("--repeat", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
+@click.option(
+    "--repeat",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    help="Run everything so often, with another seed each time; a verdict that changes is unstable.",
+)
 @options.in_process_option
 @options.no_sandbox_option
 @options.timeout_option
-@click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
-@click.option(
-    "--incident-time",
-    type=options.Seconds(min=0),
-    default=Limits.incident_seconds,
-    show_default=True,
-    help="Seconds that crashes and hangs may take in all before scenarios that would meet more of them are left out.",
-)
-@click.option(
-    "--systematic",
-    type=click.IntRange(0, MOST_EXTRA),
-    default=0,
-    show_default=True,
-    help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
-)
-@click.option(
-    "--explore",
-    type=options.DrawnScenarios(or_none=True),
-    default="2s",
-    show_default=True,
-    help="How long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s.",
-)
+@options.memory_option
+@options.incident_time_option
+@options.systematic_option
+@options.explore_option
 @click.option("--failed-first", is_flag=True, help="Begin with what failed in the last run into the same --out.")
 @click.option("--resume", is_flag=True, help="Go on with the interrupted run in the same --out.")
-@click.option("--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement.")
+@options.everything_option
 @click.pass_context
 def run(
     context: click.Context,
@@ -111,23 +120,30 @@ def run(
     resume: bool,
     everything: bool,
 ) -> None:
-    """Run a profile on ADAPTER, or on a tool chain, and write report.html, report.json and junit.xml.
+    """Test a product, and write a report.
 
     ADAPTER is a short name (reference-cpp, reference-py, ipopo, ...), package.module:Class, a pybind11 module, an
-    executable, tcp://host:port or unix:/path. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
-    use, 3 the harness failed.
+    executable, tcp://host:port or unix:/path; --toolchain names a tool chain instead. The report is report.html for
+    people, report.json and junit.xml for machines. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
+    use, 3 UCM-CTS itself failed.
     """
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
+    profile = options.profile_for(context, toolchain, profile)
     if toolchain is not None:
-        _refuse(context, ("adapter", *OF_FRAMEWORKS))
-        chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
         certify_toolchain(
             ToolChainRun(
-                toolchain, chosen, expression, out, known_failures, ics, drawn, everything, failed_first, not no_sandbox
+                toolchain,
+                profile,
+                expression,
+                out,
+                known_failures,
+                ics,
+                drawn,
+                everything,
+                failed_first,
+                not no_sandbox,
             )
         )
-    if profile in TOOLCHAIN_PROFILES:
-        raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
     certify_framework(
         FrameworkRun(
             adapter=adapter,
@@ -151,31 +167,13 @@ def run(
     )
 
 
-OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "explore", "resume")
-"""Options of ``run`` that tool chains do not have."""
-
-
-def _is_given(context: click.Context, parameter: str) -> bool:
-    return context.get_parameter_source(parameter) is ParameterSource.COMMANDLINE
-
-
-def _refuse(context: click.Context, parameters: Sequence[str]) -> None:
-    """Raise ``WrongUse`` if one of ``parameters`` was given, because only adapters have them."""
-    for parameter in context.command.params:
-        if parameter.name in parameters and _is_given(context, parameter.name):
-            name = "ADAPTER" if parameter.name == "adapter" else parameter.opts[0]
-            raise WrongUse(
-                f"{name} is for frameworks behind adapters, and --toolchain names a tool chain; leave one out"
-            )
-
-
 @cli.command()
 @options.adapter_argument
-@options.out_file("ucm-cts-ics.toml")
+@options.out_file("ucm-cts-ics.toml", "The statement.")
 @options.toolchain_option
 @options.no_sandbox_option
 @click.option("--force", is_flag=True, help="Write over a file that is there.")
-@click.option("--full", is_flag=True, help="With every value that can be stated, and what it means.")
+@click.option("--full", is_flag=True, help="Write every value that can be stated, and what it means.")
 @click.option(
     "--profile", type=options.Profile(PROFILES), help="Claim this profile.  [default: what the product can have]"
 )
@@ -190,17 +188,18 @@ def ics(
     full: bool,
     profile: str | None,
 ) -> None:
-    """Write the statement of the product behind ADAPTER, or of a tool chain, for its vendor to edit.
+    """Write the statement of a product, for its vendor to edit.
 
-    It claims what the adapter offers, and has what differs from the defaults and what the vendor must decide. Give the edited
-    one to 'ucm-cts run --ics'.
+    The statement says what the vendor claims and how unclear places of the specification are read. It claims what the adapter
+    offers, and has what differs from the defaults and what the vendor must decide. Give the edited one to 'ucm-cts run --ics'.
     """
     subject = adapter
     wanted = Wanted(out, force, full, profile or "")
     if toolchain is not None:
-        _refuse(context, ("adapter",))
+        options.refuse(context, ("adapter",))
         subject = f"--toolchain {toolchain}"
         described = read_toolchain(toolchain)
+        need("toolchain", "the statement of a tool chain")
         possible = profiles_of(described)
         if profile and profile not in possible:
             raise WrongUse(f"{toolchain} says how {', '.join(possible)} are done, and not '{profile}'")
@@ -219,10 +218,10 @@ def ics(
 @cli.command()
 @click.argument("topic", default="", required=False)
 def explain(topic: str) -> None:
-    """Explain TOPIC: a requirement (R-11.2.2.1-13), a clause (10.1.3) or an operation (remove_component, on_disconnect).
+    """Explain a requirement, a clause or an operation.
 
-    A requirement with its clause, level, meaning, interpretation and scenarios; a clause or an operation with the requirements
-    that concern it. Without TOPIC, list the catalogue.
+    TOPIC is a requirement (R-11.2.2.1-13), shown with clause, level, meaning, interpretation and scenarios; or a clause (10.1.3)
+    or an operation (remove_component, on_disconnect), shown with the requirements that concern it. Without TOPIC, list all.
     """
     console = Output()
     console.print(explanation(topic) if topic else overview(), soft_wrap=not console.is_terminal)
@@ -246,9 +245,9 @@ def replay(
     seed: int | None,
     timeout: float,
 ) -> None:
-    """Run the scenario in FILE on ADAPTER and print what happens as a sequence diagram.
+    """Run one saved scenario, and print a sequence diagram.
 
-    Exit status 1 if there is any finding.
+    FILE holds the scenario; a report saves one for each failure. Exit status 1 if the product fails any requirement in it.
     """
     if file.suffix == ".xml":
         raise WrongUse(
@@ -316,8 +315,18 @@ def _permit_open_files() -> None:
     resource.setrlimit(resource.RLIMIT_NOFILE, (_OPEN_FILES, most))
 
 
+_OBJECTS_BETWEEN_COLLECTIONS = 100_000
+
+
+def _collect_seldom() -> None:
+    """Judging makes millions of values and hardly a cycle of them: the search for cycles would take a tenth of the time."""
+    gc.freeze()  # what is imported stays
+    gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
+
+
 def main() -> None:
     """The console entry point: turns an error into one clear line and an exit status."""
+    _collect_seldom()
     try:
         _check_current_folder()
         _permit_open_files()
@@ -335,8 +344,8 @@ def main() -> None:
         sys.exit(options.HARNESS_FAILED)
     except ImportError as error:
         remedy = remedy_for(error)
-        click.echo(f"ucm-cts: {remedy or f'the harness failed: {type(error).__name__}: {error}'}", err=True)
+        click.echo(f"ucm-cts: {remedy or f'UCM-CTS itself failed: {type(error).__name__}: {error}'}", err=True)
         sys.exit(options.WRONG_USE if remedy else options.HARNESS_FAILED)
     except Exception as error:  # noqa: BLE001 - the last resort: a user sees one line, not a traceback
-        click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
+        click.echo(f"ucm-cts: UCM-CTS itself failed: {type(error).__name__}: {error}", err=True)
         sys.exit(options.HARNESS_FAILED)

@@ -33,8 +33,12 @@ from ucm_cts.harness.results.foreign import one_line
     metavar="OLD",
     help="Say what changed from OLD to REPORT. Both are reports, folders of them or certificates.",
 )
-@click.option("--junit", type=click.Path(dir_okay=False, path_type=Path), help="With --baseline: a file for a CI.")
-@click.option("--annotations", "annotated", is_flag=True, help="With --baseline: print annotations of GitHub, too.")
+@click.option(
+    "--junit",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="With --baseline: write the changes for a CI; a regression is a failure, a known failure is skipped.",
+)
+@click.option("--annotations", "annotated", is_flag=True, help="With --baseline: print annotations for GitHub, too.")
 @click.pass_context
 def compare(
     context: click.Context,
@@ -44,10 +48,10 @@ def compare(
     junit: Path | None,
     annotated: bool,
 ) -> None:
-    """Lay the reports in the files REPORT, each a report.json, side by side, requirement by requirement.
+    """Lay reports side by side, or say what has changed.
 
-    The page needs nothing else, and leads to each report.html beside its report.json. A file that no earlier command wrote, or
-    that was changed since, is never replaced.
+    Each REPORT is a report.json. The page shows them requirement by requirement, and leads to each report.html. A file that no
+    earlier command wrote, or that was changed since, is never replaced.
 
     With --baseline OLD: say which requirements are fixed, regressed, new, gone or unstable in REPORT. Exit status 1 if one that
     decides verdicts has regressed.

@@ -39,7 +39,7 @@ FOR_INCIDENTS = 0.5
 )
 @options.framework_profile_option
 @options.seed_option
-@options.out_folder("ucm-cts-exploration")
+@options.out_folder("ucm-cts-exploration", "The folder for what is found.")
 @click.option(
     "--database",
     "databases",
@@ -63,10 +63,10 @@ def explore(
     no_sandbox: bool,
     timeout: float,
 ) -> None:
-    """Generate scenarios, run them on ADAPTER, and shorten those that fail.
+    """Draw random scenarios, and shorten those that fail.
 
     Failures are remembered and tried first the next time. Exit status: 0 nothing found, 1 something found or
-    interrupted, 2 wrong use, 3 the harness failed.
+    interrupted, 2 wrong use, 3 UCM-CTS itself failed.
     """
     console = Output()
     statement = stated_by(ics, adapter, not no_sandbox)

@@ -28,9 +28,9 @@ from ucm_cts.harness.hosting.extras import need
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the trends as JSON.")
 def history(reports: Sequence[Path], database: Path, as_json: bool) -> None:
-    """Append each REPORT, or those in FOLDER, to the history, then show all of it.
+    """Append reports to a history, and show trends.
 
-    It shows the verdicts and costs of each product and profile from run to run, and the first version that did not pass a
+    Each REPORT, or those in FOLDER, are appended; without them the history is only shown. It shows the verdicts and costs of each product and profile from run to run, and the first version that did not pass a
     requirement any more. A report that is in the history is not appended again; one of a part of a run is left out.
     """
     need("history", "a history")

@@ -12,14 +12,16 @@ from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import click
+from click.core import ParameterSource
 
 import ucm_cts
-from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PROFILES
+from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PROFILES, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import in_the_making, load_requirements
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.execution.driver import Limits
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.selection import words_of
+from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import Saved
 from ucm_cts.harness.results.foreign import one_line
@@ -99,37 +101,126 @@ class Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.2
         return super().convert(value, param, ctx)
 
 
-def out_folder(default: str, text: str = "") -> Callable[[F], F]:
+def out_folder(default: str, text: str = "The folder for the report.") -> Callable[[F], F]:
     """The option ``--out`` of a command that writes a folder."""
     kind = Folder(file_okay=False, path_type=Path)
-    return click.option("--out", type=kind, default=Path(default), show_default=True, help=text or None)
+    return click.option("--out", type=kind, default=Path(default), show_default=True, help=text)
 
 
-def out_file(default: str, text: str = "") -> Callable[[F], F]:
+def out_file(default: str, text: str) -> Callable[[F], F]:
     """The option ``--out`` of a command that writes one file."""
     kind = click.Path(dir_okay=False, path_type=Path)
-    return click.option("--out", type=kind, default=Path(default), show_default=True, help=text or None)
+    return click.option("--out", type=kind, default=Path(default), show_default=True, help=text)
 
 
 adapter_argument = click.argument("adapter", default="", required=False)
-profile_option = click.option("--profile", type=Profile(PROFILES), default="container", show_default=True)
+_PROFILE_HELP = "What to check: "
+_OF_FRAMEWORKS = "container is clauses 11 and 12.10, the life cycle and the Container API; core adds 10.1, connections"
+profile_option = click.option(
+    "--profile",
+    type=Profile(PROFILES),
+    default="container",
+    show_default=True,
+    help=f"{_PROFILE_HELP}{_OF_FRAMEWORKS}; the others are of tool chains.",
+)
 framework_profile_option = click.option(
-    "--profile", type=Profile(FRAMEWORK_PROFILES), default="container", show_default=True
+    "--profile",
+    type=Profile(FRAMEWORK_PROFILES),
+    default="container",
+    show_default=True,
+    help=f"{_PROFILE_HELP}{_OF_FRAMEWORKS}.",
 )
-in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
+in_process_option = click.option(
+    "--in-process", is_flag=True, help="Run the product in the process of ucm-cts: for debuggers and sanitizers."
+)
 no_sandbox_option = click.option(
-    "--no-sandbox", is_flag=True, help="Hosts and commands run as you do: the report says 'isolation: process'."
+    "--no-sandbox", is_flag=True, help="Run the product without a sandbox; a report says so."
 )
-seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
-ics_option = click.option("--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement.")
+seed_option = click.option(
+    "--seed", type=int, help="Repeat a run: all names and data that a product sees are drawn from this number."
+)
+ics_option = click.option(
+    "--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement; 'ucm-cts ics' writes one."
+)
 toolchain_option = click.option(
     "--toolchain",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="The tool chain that this file describes, instead of an adapter.",
+    help="A file that describes a tool chain, which is tested instead of an adapter.",
 )
 timeout_option = click.option(
-    "--timeout", type=Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
+    "--timeout",
+    type=Seconds(min=0.1),
+    default=Limits.seconds,
+    show_default=True,
+    help="Seconds that a scenario may take.",
 )
+
+
+memory_option = click.option(
+    "--memory",
+    type=click.IntRange(min=16),
+    default=Limits.memory,
+    show_default=True,
+    help="MiB that the product may use, with all processes that it starts.",
+)
+incident_time_option = click.option(
+    "--incident-time",
+    type=Seconds(min=0),
+    default=Limits.incident_seconds,
+    show_default=True,
+    help="Seconds that crashes and hangs may take in all; then scenarios that would meet more of them are left out.",
+)
+systematic_option = click.option(
+    "--systematic",
+    type=click.IntRange(0, MOST_EXTRA),
+    default=0,
+    show_default=True,
+    help="Find every framework that has up to so many states more than the life-cycle table.",
+)
+explore_option = click.option(
+    "--explore",
+    type=DrawnScenarios(or_none=True),
+    default="2s",
+    show_default=True,
+    help="How long to draw random scenarios after those of the suite, or how many: 3s, 500scenarios, 0s for none.",
+)
+known_failures_option = click.option(
+    "--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="A file with failures expected for now."
+)
+everything_option = click.option(
+    "--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement."
+)
+
+
+OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "explore", "resume")
+"""Options that tool chains do not have."""
+
+
+def profile_for(context: click.Context, toolchain: Path | None, profile: str) -> str:
+    """The profile of an adapter, or of ``toolchain``, which has another default and not all options. Raises ``WrongUse``."""
+    if toolchain is None:
+        if profile in TOOLCHAIN_PROFILES:
+            raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
+        return profile
+    refuse(context, ("adapter", *OF_FRAMEWORKS))
+    chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
+    if chosen not in TOOLCHAIN_PROFILES:
+        raise WrongUse(f"profile '{chosen}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
+    return chosen
+
+
+def refuse(context: click.Context, parameters: Sequence[str]) -> None:
+    """Raise ``WrongUse`` if one of ``parameters`` was given, because only adapters have them."""
+    for parameter in context.command.params:
+        if parameter.name in parameters and _is_given(context, parameter.name):
+            name = "ADAPTER" if parameter.name == "adapter" else parameter.opts[0]
+            raise WrongUse(
+                f"{name} is for frameworks behind adapters, and --toolchain names a tool chain; leave one out"
+            )
+
+
+def _is_given(context: click.Context, parameter: str) -> bool:
+    return context.get_parameter_source(parameter) is ParameterSource.COMMANDLINE
 
 
 def nothing_selected(expression: str, candidates: Iterable[str], what: str) -> WrongUse:

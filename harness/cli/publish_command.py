@@ -10,14 +10,17 @@ import click
 
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.cli.options import CONFORMANT, Folder, Seconds, leave
+from ucm_cts.harness.cli.results_command import keep, write_pages
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.hosting.extras import need
 from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.publishing.certificate import Certificate
 from ucm_cts.harness.publishing.collecting import Verifier, collect, verifying_command
 from ucm_cts.harness.publishing.pages import FILES, site_files
 from ucm_cts.harness.publishing.remembering import Memory, circumstances
-from ucm_cts.harness.publishing.site import site_of
-from ucm_cts.harness.report.out_folder import OutFolder
+from ucm_cts.harness.publishing.site import Site, site_of
+from ucm_cts.harness.report.out_folder import Copy, OutFolder
+from ucm_cts.harness.report.published import PublishedResult
 from ucm_cts.harness.results.foreign import one_line
 
 _URL = re.compile(r"https?://[A-Za-z0-9.-]+(:\d+)?(/[A-Za-z0-9._~/-]*)?")
@@ -34,12 +37,27 @@ SHOWN = 20
 )
 @click.option("--auditor", type=click.Path(path_type=Path), help="The keys that are trusted as auditors.")
 @click.option("--suite", type=click.Choice(["newer"]), help="Judge old certificates by the rules of this suite, too.")
-@click.option("--remember", type=click.Path(dir_okay=False, path_type=Path), help="A file for what was verified.")
+@click.option(
+    "--remember",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Keep in this file what was verified, and verify only what is new.",
+)
+@click.option(
+    "--results",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="A folder of results, as 'ucm-cts results' keeps: it gets the verdicts of what stands.",
+)
 @click.option("--url", default="", help="Where the site will be: https://example.org/ucm/")
 @click.option(
-    "--time", "seconds", type=Seconds(min=1), default=120, show_default=True, help="Seconds each verification may take."
+    "--time", "seconds", type=Seconds(min=1), default=600, show_default=True, help="Seconds each verification may take."
 )
-@click.option("--memory", type=click.IntRange(min=256), default=4096, show_default=True, help="MiB each may use.")
+@click.option(
+    "--memory",
+    type=click.IntRange(min=256),
+    default=4096,
+    show_default=True,
+    help="MiB that each verification may use.",
+)
 def publish(
     certificates: Path,
     out: Path,
@@ -47,13 +65,15 @@ def publish(
     auditor: Path | None,
     suite: str | None,
     remember: Path | None,
+    results: Path | None,
     url: str,
     seconds: float,
     memory: int,
 ) -> None:
-    """Verify the archives (*.ucmcert) in the folder CERTIFICATES, and make a static site of those that stand.
+    """Make a static site of certificates.
 
-    The site lists the others with the reasons. It needs no server: open index.html in it.
+    Each *.ucmcert in the folder CERTIFICATES is verified; the site shows those that stand, and lists the others with the
+    reasons. It needs no server: open index.html in it.
     """
     need("certificates", "publishing")
     if not certificates.is_dir():
@@ -72,7 +92,7 @@ def publish(
     verifier = Verifier(verifying_command(trust, *options), seconds, memory)
     with OutFolder(out, FILES) as folder, ends_like_interrupts():
         with console.status("") as status:
-            stand, fall = collect(
+            stand, fall, archives = collect(
                 certificates,
                 verifier,
                 known,
@@ -80,12 +100,19 @@ def publish(
                 lambda done, of: status.update(f"{done} of {of} verified"),
             )
         site = site_of(stand, fall, load_requirements())
+        verdicts = _verdicts(site) if results is not None else []
         if remember is not None:
             known.write(remember)
         try:
-            folder.save(site_files(site, load_requirements(), url and url.rstrip("/") + "/"), FILES)
+            files: dict[str, bytes | Copy] = {one.archive: Copy(archives[one.digest], one.digest) for one in stand}
+            files |= site_files(site, load_requirements(), url and url.rstrip("/") + "/")
+            folder.save(files, FILES)
         except OSError as error:
             raise WrongUse(f"the site cannot be written to '{out}': {error.strerror}; choose another --out") from None
+    if results is not None:
+        for verdict in verdicts:
+            keep(verdict, results)
+        write_pages(results)
     for fallen in fall[:SHOWN]:
         reasons = "; ".join(f"{p.check}: {one_line(p.detail, 300)}" for p in fallen.problems[:3])
         console.say(f"{fallen.file} does not stand: {reasons}")
@@ -93,3 +120,18 @@ def publish(
         console.say(f"and {len(fall) - SHOWN} more, which the site lists")
     console.say(f"{len(stand)} of {len(stand) + len(fall)} certificates stand; {out / 'index.html'} shows them")
     leave(console, CONFORMANT)
+
+
+def _verdicts(site: Site) -> list[PublishedResult]:
+    """What the certificates in the matrix say that were judged by their own rules. Raises ``WrongUse`` if different keys signed
+    for one product and version: a folder of results has one place for them.
+    """
+    found: dict[tuple[str, str], Certificate] = {}
+    for one in (cell for row in site.versions.rows for cell in row.held if not cell.is_delta):
+        other = found.setdefault((one.result.folder, one.profile), one)
+        if other is not one:
+            keys = " and ".join(one_line(", ".join(signed.signers), 80) for signed in (other, one))
+            raise WrongUse(
+                f"{keys} signed certificates of {one.name}, profile {one.profile}; for --results trust one of them"
+            )
+    return [one.result for one in found.values()]

@@ -11,7 +11,7 @@ from ucm_cts.harness.cli.options import CONFORMANT, leave, out_folder
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.comparison import read_report
-from ucm_cts.harness.report.published import by_product, published, read_published, to_json
+from ucm_cts.harness.report.published import PublishedResult, by_product, published, read_published, to_json
 from ucm_cts.harness.report.published_pages import overview, product_page, table
 from ucm_cts.harness.report.write import prepare_folder, write_whole
 from ucm_cts.harness.results.foreign import one_line
@@ -24,18 +24,16 @@ DETECTION, PAGE = "detection", "README.md"
 @click.argument("sources", nargs=-1, type=click.Path(path_type=Path), metavar="[REPORT|FOLDER]...")
 @out_folder("results", "The folder of results; those of other products stay.")
 def results(sources: Sequence[Path], out: Path) -> None:
-    """Keep what each REPORT (report.json or matrix.json), or each of those in FOLDER, says that is the same in every run.
+    """Keep reports for publication in a repository.
 
-    Then write the pages of all results in the folder anew.
+    Of each REPORT (report.json or matrix.json), or each of those in FOLDER, it keeps what is the same in every run, and writes
+    a page for each product. Without one it writes the pages anew.
     """
     console = Output()
     kept = [_keep(file, out) for source in sources for file in _files(source)]
     if sources and not kept:
         raise WrongUse(f"there is neither report.json nor matrix.json in {', '.join(map(str, sources))}")
-    written = pages(out)
-    for path, text in written.items():
-        write_whole(path, text.encode())
-    for path in (*kept, *written):
+    for path in (*kept, *write_pages(out)):
         console.say(str(path))
     leave(console, CONFORMANT)
 
@@ -56,11 +54,27 @@ def _keep(file: Path, out: Path) -> Path:
         if report.incomplete or report.selection:
             what = f"incomplete ({one_line(report.incomplete)})" if report.incomplete else "of a selection (-k)"
             raise WrongUse(f"'{file}' is {what}; only reports of whole runs are published")
-        result = published(report)
-        path, content = out / result.folder / f"{result.profile}.json", to_json(result)
+        return keep(published(report), out)
+    return _write(path, content)
+
+
+def keep(result: PublishedResult, out: Path) -> Path:
+    """Write ``result`` into the folder of results ``out``, in place of an older one. Returns its file. Raises ``WrongUse``."""
+    return _write(out / result.folder / f"{result.profile}.json", to_json(result))
+
+
+def _write(path: Path, content: bytes) -> Path:
     prepare_folder(path.parent)
     write_whole(path, content)
     return path
+
+
+def write_pages(folder: Path) -> list[Path]:
+    """Write all pages of the results in ``folder`` anew. Returns their files. Raises ``DocumentError``."""
+    written = pages(folder)
+    for path, text in written.items():
+        write_whole(path, text.encode())
+    return [*written]
 
 
 def pages(folder: Path) -> dict[Path, str]:

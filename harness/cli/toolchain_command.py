@@ -36,6 +36,7 @@ class ToolChainRun:
 
     ``path``: the file that describes the tool chain.
     ``everything``: the summary lists everything.
+    ``hidden``: what its commands must not see, besides the report.
     """
 
     path: Path
@@ -48,6 +49,7 @@ class ToolChainRun:
     everything: bool = False
     failed_first: bool = False
     sandbox: bool = True
+    hidden: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -62,20 +64,15 @@ class ToolChainRan:
 
 def certify_toolchain(wanted: ToolChainRun) -> NoReturn:
     """Run it, write the report, and end. Raises ``WrongUse`` and ``DocumentError``."""
-    prepared = _prepared(wanted)
+    prepared = prepare(wanted)
     console = Output()
     with ends_like_interrupts() as interrupts, interrupts.held(), report_folder(wanted.out) as folder:
-        ran = _run(prepared, console, interrupts)
+        ran = run_toolchain(prepared, console, interrupts)
         leave_with(console, ran.report, keep_report(ran.report, folder), ran.known, wanted.everything)
 
 
-def run_toolchain(wanted: ToolChainRun, console: Output, interrupts: Interrupts) -> ToolChainRan:
-    """Run it, and write no report; ``interrupts`` are held. Raises ``WrongUse`` and ``DocumentError``."""
-    return _run(_prepared(wanted), console, interrupts)
-
-
 @dataclass(frozen=True)
-class _Prepared:
+class Prepared:
     """What a run needs: all that a user may have got wrong has been checked."""
 
     wanted: ToolChainRun
@@ -86,19 +83,17 @@ class _Prepared:
     examination: Examination
 
 
-def _prepared(wanted: ToolChainRun) -> _Prepared:
+def prepare(wanted: ToolChainRun) -> Prepared:
+    """Check what is ``wanted``, and run nothing yet. Raises ``WrongUse`` and ``DocumentError``."""
     path, profile, expression = wanted.path, wanted.profile, wanted.expression
     need("toolchain", "certifying a tool chain")
-    if profile not in TOOLCHAIN_PROFILES:
-        raise WrongUse(f"profile '{profile}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
     toolchain = read_toolchain(path)
     command = toolchain.command_for(TASKS[profile])
     if command is None:
         raise WrongUse(f"{path} does not say how '{TASKS[profile]}' is done, which profile '{profile}' needs")
     known = known_today(wanted.known_failures)
-    statement = read_statement(wanted.ics) if wanted.ics is not None else default_statement()
-    check_subject(statement, toolchain, profile)
-    processor = CommandLine(toolchain, wanted.sandbox, [wanted.out])
+    statement = stated_of_toolchain(wanted.ics, toolchain, profile)
+    processor = CommandLine(toolchain, wanted.sandbox, [wanted.out, *wanted.hidden])
     examination = examination_for(
         profile, statement, Renaming(wanted.seed, toolchain.dialect), expression, command, sandbox=wanted.sandbox
     )
@@ -109,10 +104,11 @@ def _prepared(wanted: ToolChainRun) -> _Prepared:
         raise nothing_selected(expression, [*ids, *names], "model")
     if not examination.models:
         raise nothing_selected(expression, ids, "model")
-    return _Prepared(wanted, toolchain, statement, known, processor, examination)
+    return Prepared(wanted, toolchain, statement, known, processor, examination)
 
 
-def _run(prepared: _Prepared, console: Output, interrupts: Interrupts) -> ToolChainRan:
+def run_toolchain(prepared: Prepared, console: Output, interrupts: Interrupts) -> ToolChainRan:
+    """Run it, and write no report; ``interrupts`` are held."""
     wanted, toolchain, examination = prepared.wanted, prepared.toolchain, prepared.examination
     greet(console, name_of(toolchain), wanted.profile, wanted.seed)
     plan = ToolChainPlan(
@@ -140,6 +136,13 @@ def _run(prepared: _Prepared, console: Output, interrupts: Interrupts) -> ToolCh
         return recorder.record(toolchain, TASKS[wanted.profile], report, names, plan.jobs)
 
     return ToolChainRan(plan, report, record, prepared.known)
+
+
+def stated_of_toolchain(path: Path | None, toolchain: ToolChain, profile: str) -> Statement:
+    """The statement in the file at ``path``, else the default, about ``toolchain``. Raises ``WrongUse`` and ``DocumentError``."""
+    statement = read_statement(path) if path is not None else default_statement()
+    check_subject(statement, toolchain, profile)
+    return statement
 
 
 def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:

@@ -14,8 +14,10 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario, Step
 from ucm_cts.harness.hosting.hosts import waits
 
-PATIENCE = 1000
-"""Milliseconds after which such a call is left waiting, if nothing else in its scenario waits."""
+PATIENCE = 400
+"""Milliseconds after which such a call is left waiting, if nothing else in its scenario waits. A call that the text does not
+leave open is made again, with all the time it may have.
+"""
 
 MOST = 32
 """Scenarios with more calls stay as they are."""

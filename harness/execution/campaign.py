@@ -164,8 +164,14 @@ class Campaign:
             try:
                 examined = leftovers.examine(self._driver, name, scenario, patience)
             except leftovers.NotCounted:
-                reason = "the process of its host is not on this machine, or its threads and files cannot be counted"
-                self._tally.settle(leftovers.FREED, "not applicable", reason)
+                if self._driver.isolation in ("none", "remote"):
+                    reason = "there is no process of a host on this machine whose threads and files can be counted"
+                    self._tally.settle(leftovers.FREED, "not applicable", reason)
+                else:  # a host can hide them, which is no excuse
+                    reason = (
+                        "threads and files of the host's process could not be counted, although it is on this machine"
+                    )
+                    self._tally.explain(leftovers.FREED, reason)
                 continue
             if examined is None:
                 continue

@@ -6,11 +6,12 @@ A name the framework made up stays as it is and therefore never equals a name of
 
 from __future__ import annotations
 
+import functools
 import random
 import re
 import string
-from collections.abc import Mapping, Sequence
-from typing import TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -18,7 +19,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.data_values import read_spelled
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario
-from ucm_cts.adapters.contract.traits import Binds, Names, fields
+from ucm_cts.adapters.contract.traits import Binds, Names, Subject, fields
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.execution.naming import Naming
 from ucm_cts.harness.execution.revealing import Revealing
@@ -183,22 +184,36 @@ class Disguise:
     def _named(self, value: S) -> S:
         """A step or an action in disguise. Variables, gates and workers keep their names, because no framework sees them."""
         changed: dict[str, str | int | dict[str, str]] = {}
-        for field, trait in fields(type(value)):
+        for field, trait in _disguised_fields(type(value)):
             plain = getattr(value, field)
-            match trait:
-                case Binds(otherwise=named_by) if named_by and not plain:
-                    changed[field] = getattr(value, named_by)
-                case Names("implementation" | "component" | "interface"):
-                    changed[field] = self._name(plain)
-                case Names("port element"):
-                    changed[field] = self._port(plain)
-                case Names("method"):
-                    changed[field] = self._method(plain)
-                case Names("payload"):
-                    changed[field] = self._value(plain)
-                case Names("attribute"):
-                    changed[field] = self._attributes(plain)
-        return msgspec.structs.replace(value, **changed)
+            if isinstance(trait, Names):
+                changed[field] = _IN_DISGUISE[trait.subject](self, plain)
+            elif not plain:
+                changed[field] = getattr(value, trait.otherwise)
+        return msgspec.structs.replace(value, **changed) if changed else value
+
+
+_IN_DISGUISE: Mapping[Subject, Callable[[Disguise, Any], str | int | dict[str, str]]] = {
+    "implementation": Disguise._name,
+    "component": Disguise._name,
+    "interface": Disguise._name,
+    "port element": Disguise._port,
+    "method": Disguise._method,
+    "payload": Disguise._value,
+    "attribute": Disguise._attributes,
+}
+"""How each kind of subject is disguised. Gates and workers are not."""
+
+
+@functools.cache
+def _disguised_fields(kind: type[Value]) -> tuple[tuple[str, Names | Binds], ...]:
+    """The fields that a disguise may change."""
+    return tuple(
+        (field, trait)
+        for field, trait in fields(kind)
+        if (isinstance(trait, Names) and trait.subject in _IN_DISGUISE)
+        or (isinstance(trait, Binds) and trait.otherwise)
+    )
 
 
 def revealed_by(words: Mapping[str, str], value: T) -> T:

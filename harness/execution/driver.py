@@ -31,7 +31,7 @@ from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
-from ucm_cts.harness.hosting.locate import Endpoint, namesakes
+from ucm_cts.harness.hosting.locate import Endpoint, file_named, namesakes
 from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.tally import Cause
 from ucm_cts.harness.results.unanswered_calls import is_left_open
@@ -88,8 +88,8 @@ class Driver(Disguising):
 
     @property
     def adapter_file(self) -> str:
-        """The file that the adapter was loaded from; empty as long as it is not known."""
-        return self._hosts.file
+        """The file that the adapter is loaded from; empty for one on another machine."""
+        return file_named(self._endpoint)
 
     @property
     def isolation(self) -> Isolation:
@@ -104,8 +104,8 @@ class Driver(Disguising):
     def warnings(self) -> tuple[str, ...]:
         """What the vendor should know of the adapter, a sentence each."""
         left = self._hosts.left_behind
-        others = tuple(namesakes(self._endpoint, self._hosts.file))
-        shadowed = f"the adapter is {self._hosts.file}; another of its name is {', '.join(others)}"
+        others = tuple(namesakes(self._endpoint, self.adapter_file))
+        shadowed = f"the adapter is {self.adapter_file}; another of its name is {', '.join(others)}"
         behind = f"hosts left {left.total()} processes behind, which were ended: {', '.join(sorted(left)[:_SHOWN])}"
         waiting = (
             f"in {self._left_waiting} scenarios calls of what is removed or not started waited for ever, "

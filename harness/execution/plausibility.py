@@ -74,7 +74,7 @@ class Plausibility:
         last = min(max(at - self._at, 0), self._limits.welcome_seconds * 1000)
         possible = (self.spent - since + last) / 1000
         if possible < seconds:
-            self._tell(
+            self.tell(
                 f"second looks are missing: {seconds:g} s for them cannot have been used up, at most {possible:.1f} s were"
             )
 
@@ -113,7 +113,7 @@ class Plausibility:
     def _pass(self, at: int, answer: Answer) -> float:
         """Time passes. Returns how many milliseconds of it the answer accounts for."""
         if at < self._at:
-            self._tell(f"'{one_line(answer.name, 80)}': its answer came {self._at - at} ms before the one before it")
+            self.tell(f"'{one_line(answer.name, 80)}': its answer came {self._at - at} ms before the one before it")
         took = min(max(at - self._at, 0), self._longest(answer))
         self._at = max(at, self._at)
         self.spent += took
@@ -136,10 +136,11 @@ class Plausibility:
 
     def _is_clean(self, answer: Answer, problem: str | None) -> bool:
         if problem is not None:
-            self._tell(f"the trace of '{one_line(answer.name, 80)}' cannot be true: {one_line(problem)}")
+            self.tell(f"the trace of '{one_line(answer.name, 80)}' cannot be true: {one_line(problem)}")
         return problem is None
 
-    def _tell(self, problem: str) -> None:
+    def tell(self, problem: str) -> None:
+        """Add a line about what cannot be true."""
         if len(self._found) < MOST_SHOWN:
             self._found.append(problem)
         else:

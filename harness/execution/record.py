@@ -15,7 +15,7 @@ import msgspec
 from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event, Trace
-from ucm_cts.adapters.contract.value import Int64, Value
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Incident, Isolation
 
@@ -27,6 +27,10 @@ MOST_BYTES = 128 << 20
 
 MOST_ENTRIES = 200_000
 MOST_EVENTS = 10_000_000
+MOST_IN_TRACE = 1_000_000
+
+MOST_AHEAD = 2_000
+"""Scenarios that may be asked for before they are answered: those on their way to a host, each after some that are left out."""
 
 LONGEST_LINE = 2_000
 """Characters of any text that a record has for people."""
@@ -34,6 +38,7 @@ LONGEST_LINE = 2_000
 _Index = Annotated[int, msgspec.Meta(ge=0, le=MOST_EVENTS)]
 _Milliseconds = Annotated[int, msgspec.Meta(ge=0, le=10**12)]
 _Text = Annotated[str, msgspec.Meta(max_length=LONGEST_LINE)]
+_Count = Annotated[int, msgspec.Meta(ge=0, le=2**31)]
 _Step = Annotated[int, msgspec.Meta(ge=-(2**62), le=2**62)]
 
 
@@ -72,7 +77,7 @@ class Answered(Performed, frozen=True, tag="answer"):
     ``apart``: its calls were made on threads of their own.
     """
 
-    drawn: Annotated[int, msgspec.Meta(ge=0, le=1000)] = 1
+    drawn: Annotated[int, msgspec.Meta(ge=0, le=MOST_AHEAD)] = 1
     incident: Incident | None = None
     is_whole: bool = False
     apart: bool = False
@@ -91,8 +96,8 @@ class Repeated(Performed, frozen=True, tag="again"):
 class Usage(Value, frozen=True):
     """What the host's process holds: ``threads``, and open ``files``."""
 
-    threads: Int64
-    files: Int64
+    threads: _Count
+    files: _Count
 
 
 class InSeries(Performed, frozen=True, tag="series"):
@@ -243,6 +248,8 @@ def _problem_of_tables(record: Record) -> str:
         return f"the record has more than {MOST_EVENTS} events"
     last = 0
     for number, entry in enumerate(performed, 1):
+        if len(entry.events) > MOST_IN_TRACE:
+            return f"scenario {number} ('{one_line(entry.name, 60)}') has more than {MOST_IN_TRACE} events"
         if len(entry.events) != len(entry.times):
             return f"scenario {number} ('{one_line(entry.name, 60)}') has {len(entry.events)} events and {len(entry.times)} times"
         times = list(itertools.accumulate(entry.times, initial=last))

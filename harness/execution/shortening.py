@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -27,10 +27,10 @@ SECONDS_FOR_SHORTER_CRASHES = 20
 """How long the search for shorter scenarios of crashes takes; each try takes two hosts."""
 
 SECONDS_FOR_SHORTER = 10
-"""How long the search for a shorter scenario of one failure takes; its last try begins before."""
+"""How long the search for a shorter scenario of one failure takes at most; it ends with the try that goes on then."""
 
-SECONDS_FOR_ALL_SHORTER = 180
-"""The same for all failures of a run."""
+SECONDS_FOR_ALL_SHORTER = 60
+"""The same for all failures of a run. Each has an equal share of what is left when its search begins."""
 
 SECONDS_FOR_SMALLER_VALUES = 5
 """How long the search for a smaller value with the same failure takes."""
@@ -63,20 +63,22 @@ class Shortening:
         """Search the shortest scenario of each failure; yields each cause when it is done."""
         until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
         last = time.monotonic() + SECONDS_FOR_ALL_SHORTER
-        for cause, failure in list(self._tally.failures.items()):
-            if failure.execution is None or failure.unstable or failure.finding.rule in HOST_CHECKS:
-                continue
-            incident = failure.execution.incident
-            ends = min(time.monotonic() + SECONDS_FOR_SHORTER, last)
+        searched = [(cause, execution) for cause in self._tally.failures if (execution := self._to_shorten(cause))]
+        for number, (cause, execution) in enumerate(searched):
+            incident = execution.incident
+            began = time.monotonic()
+            ends = began + min(SECONDS_FOR_SHORTER, (last - began) / (len(searched) - number))
             shortest: list[_Shown] = []
 
             def first_failing(
                 candidates: Sequence[Scenario],
                 cause: Cause = cause,
+                execution: Execution = execution,
                 ends: float = ends,
                 shortest: list[_Shown] = shortest,
             ) -> int | None:
-                shown = self._show(cause, candidates, until) if time.monotonic() < ends else None
+                within = ends if execution.incident is None else min(ends, until)
+                shown = self._show(cause, candidates, within) if time.monotonic() < within else None
                 if shown is None:
                     return None
                 shortest[:] = [shown]
@@ -85,11 +87,11 @@ class Shortening:
             try:
                 with self._driver.tries():
                     if incident is None:
-                        soon = min(time.monotonic() + SECONDS_FOR_SMALLER_VALUES, last)
-                        seed = self._driver.seed
-                        smaller_values.smallest(failure.finding, failure.execution, first_failing, seed, soon)
+                        finding = self._tally.failures[cause].finding
+                        soon = min(began + SECONDS_FOR_SMALLER_VALUES, ends)
+                        smaller_values.smallest(finding, execution, first_failing, self._driver.seed, soon)
                     if incident is None or incident.kind in _QUICK:
-                        smaller = shortest[0].execution if shortest else failure.execution
+                        smaller = shortest[0].execution if shortest else execution
                         shrink.shortest(smaller.scenario, first_failing)
             finally:
                 for shown in shortest:
@@ -99,11 +101,11 @@ class Shortening:
 
     def adopt(self, cause: Cause, answer: Answer) -> str:
         """Replace the execution of ``cause`` by ``answer``, which an earlier search has found. Returns why it cannot; empty if it can."""
-        failure = self._tally.failures.get(cause)
-        if failure is None or failure.execution is None or failure.unstable or failure.finding.rule in HOST_CHECKS:
+        known = self._to_shorten(cause)
+        if known is None:
             return "it is no failure of this run that is shortened"
-        if answer.name != _name_of_shorter(failure.execution):
-            return f"it is not named '{_name_of_shorter(failure.execution)}'"
+        if answer.name != _name_of_shorter(known):
+            return f"it is not named '{_name_of_shorter(known)}'"
         execution = self._driver.revealed(answer)
         shown = next((one for one in self._findings(answer, execution) if cause_of(one) == cause), None)
         if shown is None:
@@ -111,31 +113,42 @@ class Shortening:
         self._tally.replace(cause, shown, execution)
         return ""
 
-    def _show(self, cause: Cause, candidates: Sequence[Scenario], until: float) -> _Shown | None:
-        """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step.
+    def _to_shorten(self, cause: Cause) -> Execution | None:
+        """What shows ``cause``, if that is to be shortened."""
+        failure = self._tally.failures.get(cause)
+        if failure is None or failure.unstable or failure.finding.rule in HOST_CHECKS:
+            return None
+        return failure.execution
 
-        Those that may end the host are run one by one, no more than needed, and none after ``until``.
+    def _show(self, cause: Cause, candidates: Sequence[Scenario], until: float) -> _Shown | None:
+        """The first of ``candidates`` that shows ``cause``; none is begun when one has shown it, or after ``until``.
+
+        Many are on their way at a time, but for those that may end the host. If some are when the time is up, the host is given up.
         """
         first: _Shown | None = None
         known = self._tally.failures[cause].execution
         assert known is not None
-        cases = [(_name_of_shorter(known), c) for c in candidates]
-        alone = known.incident is not None
-        answers = self._one_by_one(cases, until) if alone else self._driver.run(cases)
+        name, alone = _name_of_shorter(known), known.incident is not None
+
+        def cases() -> Iterator[tuple[str, Scenario]]:
+            for candidate in candidates:
+                if first is not None or time.monotonic() > until:
+                    return
+                yield name, candidate
+
+        answers = self._one_by_one(cases()) if alone else self._driver.run(cases())
         for index, answer in enumerate(answers):
             if first is None:
                 execution = self._driver.revealed(answer)
                 shown = [finding for finding in self._findings(answer, execution) if cause_of(finding) == cause]
                 if shown:
                     first = _Shown(index, shown[0], execution, answer)
-            if first is not None and alone:
+            if time.monotonic() > until:
                 break
         return first
 
-    def _one_by_one(self, cases: Sequence[tuple[str, Scenario]], until: float) -> Iterator[Answer]:
+    def _one_by_one(self, cases: Iterable[tuple[str, Scenario]]) -> Iterator[Answer]:
         for case in cases:
-            if time.monotonic() > until:
-                return
             yield from self._driver.run([case], insist=True)
 
     def _findings(self, answer: Answer, execution: Execution) -> list[Finding]:

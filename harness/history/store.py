@@ -203,6 +203,8 @@ def _connected(path: Path, writes: bool) -> duckdb.DuckDBPyConnection:
         raise WrongUse(f"the history '{path}' cannot be opened: {why}; name another --database") from None
     if not is_file:
         raise WrongUse(f"the history '{path}' is no file; name another --database")
+    if not path.absolute().parent.is_dir():
+        raise WrongUse(f"there is no folder '{path.parent}' for the history; make it, or name another --database")
     # a foreign file must not make this read or load anything else, and the path is absolute because some names are addresses
     config: dict[str, Any] = {"enable_external_access": "false", "autoinstall_known_extensions": "false"}
     began = time.monotonic()

@@ -8,7 +8,6 @@ import re
 import select
 import signal
 import socket
-import tempfile
 import time
 from collections import Counter
 from contextlib import suppress
@@ -18,6 +17,7 @@ from typing import Protocol
 import psutil
 
 from ucm_cts.adapters.sdk.python.template import NO_CONTROL
+from ucm_cts.harness.hosting.last_words import Listener
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.hosting.process_tree import is_stopped, resident
 from ucm_cts.harness.hosting.sandbox import Started, start
@@ -33,7 +33,6 @@ _LONGEST_LINE = 1 << 16
 _CONTROL_CHANNEL = "the control channel of its host; an adapter leaves descriptors alone that it has not opened"
 _FAREWELL_SECONDS = 0.5
 _KILLED_SECONDS = 1.0
-_LOG_TAIL = 1 << 16
 _LAST_LINES = 20
 _GONE = -1
 """In place of the number of a process that has ended before it could be found."""
@@ -90,11 +89,9 @@ class Channel(Protocol):
 class Opener(Protocol):
     """Makes fresh hosts behind one endpoint.
 
-    ``file``: the file of the adapter, as soon as a host was opened; empty if it is not known.
     ``left_behind``: the command lines of processes that hosts left behind, which were ended, and how many of each.
     """
 
-    file: str
     left_behind: Counter[str]
 
     def open(self, seconds: float) -> Channel:
@@ -124,7 +121,6 @@ class TemplateProcess:
 
     def __init__(self, command: list[str], name: str, view: View | None = None) -> None:
         """``view``: what the sandbox of all hosts sees; None for no sandbox."""
-        self.file = ""
         self.left_behind: Counter[str] = Counter()
         self._command = command
         self._name = name
@@ -132,7 +128,7 @@ class TemplateProcess:
         self._started: Started | None = None
         self.loaded = Loaded()
         self._control: socket.socket | None = None
-        self._log = tempfile.TemporaryFile()  # noqa: SIM115 - closed in close
+        self._listener: Listener | None = None
         self._unread = b""
         self._forked: list[int] = []
         self._ended: dict[int, int] = {}
@@ -152,7 +148,6 @@ class TemplateProcess:
 
     def close(self) -> None:
         self._stop()
-        self._log.close()
 
     def kill(self, pid: int, number: int) -> None:
         """Let the template send a signal: only its parent knows whether the process number is still in use."""
@@ -193,8 +188,7 @@ class TemplateProcess:
 
     def _start(self, seconds: float) -> None:
         """Load the adapter. A process that is stopped gets ``seconds``."""
-        self._log.seek(0)
-        self._log.truncate()
+        self._listener = Listener()
         ours, theirs = socket.socketpair()
         with theirs:
             control = theirs.fileno()
@@ -203,12 +197,14 @@ class TemplateProcess:
                     [*self._command, "--control", str(control)],
                     self._view,
                     pass_fds=[control],
-                    out=self._log,
-                    error=self._log,
+                    out=self._listener.target,
+                    error=self._listener.target,
                 )
             except BaseException:
                 ours.close()
+                self._listener.close()
                 raise
+            self._listener.close_target()
         self._control, self._unread, self._forked, self._ended = ours, b"", [], {}
         try:
             first = self._read_first(seconds)
@@ -221,8 +217,7 @@ class TemplateProcess:
             raise
         word, _, said = (first or "").partition(" ")
         text = _text(said)
-        if word == "ready" and text is not None:
-            self.file = text
+        if first == "ready":
             helpers = self._started.processes()
             self.loaded = Loaded(len(helpers), resident(helpers, 0))
             return
@@ -321,6 +316,8 @@ class TemplateProcess:
                 with suppress(psutil.Error):
                     one.kill()
         status, strays = started.end()
+        if self._listener is not None:
+            self._listener.close()
         self.left_behind.update(one_line(name) for number, name in strays.items() if number not in self._hosts)
         return status
 
@@ -336,8 +333,7 @@ class TemplateProcess:
         return f"{problem}; {hint}" if hint else problem
 
     def _unavailable(self, kind: IncidentKind, detail: str) -> HostUnavailable:
-        self._log.seek(0)
-        printed = self._log.read()[-_LOG_TAIL:].decode(errors="replace")
+        printed = self._listener.text() if self._listener is not None else ""
         hint = self.hint(printed)
         return HostUnavailable(Incident(kind, f"{detail}; {hint}" if hint else detail, printed))
 

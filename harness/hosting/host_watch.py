@@ -15,12 +15,15 @@ import msgspec
 
 from ucm_cts.adapters.sdk.python.loading import Answer
 from ucm_cts.harness.hosting.host_channels import Channel
+from ucm_cts.harness.hosting.last_words import LastWords
 from ucm_cts.harness.hosting.loaded_files import loaded_by
 from ucm_cts.harness.hosting.process_tree import resident
 from ucm_cts.harness.results.values import Incident, IncidentKind
 
 _CHUNK = 1 << 16
-_STDERR_TAIL = 1 << 16
+_MOST_AT_ONCE = 1 << 18
+"""Bytes that are read of standard error before other things are attended to."""
+
 _CHECK_SECONDS = 0.05
 _CHECK_ALL_SECONDS = 0.25
 """Between two samples of the memory of all processes of a host, each of which reads the system's table of processes."""
@@ -119,10 +122,10 @@ class WatchedHost:
         self._outgoing = bytearray()
         self._partial = bytearray()
         self._lines: deque[bytes] = deque()
-        self._stderr = bytearray()
+        self._stderr = LastWords()
         self._checked = 0.0
         self._checked_all = time.monotonic()
-        self._printed = bytearray()
+        self._printed = LastWords()
         self._writing = False
         self._ended = False
         self._poll = select.poll()
@@ -177,13 +180,13 @@ class WatchedHost:
 
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         self._drain()
-        text = self._stderr.decode(errors="replace")
+        text = self._stderr.text()
         self._close(orderly=False)
         raise HostIncident(Incident(kind, detail, text))
 
     def printed(self) -> str:
         self._drain()
-        text = self._printed.decode(errors="replace")
+        text = self._printed.text()
         self._printed.clear()
         return text
 
@@ -242,7 +245,7 @@ class WatchedHost:
         """Keep the last bytes of standard error; returns how many were new."""
         new = 0
         with suppress(OSError):
-            while self._channel.error is not None and new < 4 * _STDERR_TAIL:
+            while self._channel.error is not None and new < _MOST_AT_ONCE:
                 data = os.read(self._channel.error, _CHUNK)
                 if not data:
                     self._poll.unregister(self._channel.error)
@@ -250,8 +253,7 @@ class WatchedHost:
                     self._channel.error = None
                 new += len(data)
                 for kept in (self._stderr, self._printed):
-                    kept += data
-                    del kept[:-_STDERR_TAIL]
+                    kept.add(data)
         return new
 
     def _check_memory(self) -> None:

@@ -28,7 +28,8 @@ from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.contract.traits import duration
-from ucm_cts.adapters.sdk.python.loading import CannotLoad, file_of, load
+from ucm_cts.adapters.sdk.python.host import ASKED_FOR_MODULES
+from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
 from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, TemplateProcess
 from ucm_cts.harness.hosting.host_watch import (
     Deadline,
@@ -96,8 +97,6 @@ class Hosts:
         self._host: Host | None = None
         self._welcome: m.Welcome | None = None
         self._opened = 0
-        self.file = ""
-        """The file of the adapter; empty if it is not known."""
         self.left_behind: Counter[str] = Counter()
         """The command lines of processes that hosts left behind, which were ended, and how many of each."""
 
@@ -214,11 +213,29 @@ class Hosts:
         return self._host.usage() if self._host is not None else None
 
     def loaded_files(self) -> frozenset[str]:
-        """The files that the current host has loaded as code; a host is started if there is none."""
+        """The files that the current host has loaded as code; a host is started if there is none.
+
+        Libraries are those that the system names. Modules of Python, which the system does not know, are those that the host names.
+        """
         if self._host is None:
             with suppress(HostUnavailable):
                 self._open()
-        return self._host.loaded_files() if self._host is not None else frozenset()
+        return self._host.loaded_files() | self._modules() if self._host is not None else frozenset()
+
+    def _modules(self) -> frozenset[str]:
+        """The files of the modules that the current host says it has loaded."""
+        if self._endpoint.kind != "python" or self._endpoint.in_process or self._host is None:
+            return frozenset()
+        self._host.submit(ASKED_FOR_MODULES.rstrip())
+        try:
+            files = msgspec.json.decode(self._host.receive(Deadline.after(self.limits.seconds)), type=list[str])
+        except HostIncident:
+            self._host = None
+            return frozenset()
+        except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+            self.discard()  # what else it has to say answers nothing
+            return frozenset()
+        return frozenset(file for file in files if "\0" not in file and os.path.isabs(file))
 
     def close(self) -> None:
         """End the host and everything that was started for it."""
@@ -248,15 +265,13 @@ class Hosts:
     def _new_host(self) -> Host:
         if self._endpoint.in_process:
             try:
-                answer = load(self._endpoint.target)
-                self.file = file_of(self._endpoint.target)
-                return InProcessHost(answer)
+                return InProcessHost(load(self._endpoint.target))
             except CannotLoad as error:
                 raise WrongUse(f"'{self._endpoint.text}': {error}") from error
         if self._opener is None:
             self._opener = _opener(self._endpoint, self.limits.memory)
         channel = self._opener.open(max(self.limits.seconds, _FORK_SECONDS))
-        self.file, self.left_behind = self._opener.file, self._opener.left_behind
+        self.left_behind = self._opener.left_behind
         return WatchedHost(channel, self.limits)
 
     def _greet(self, host: Host) -> m.Welcome:

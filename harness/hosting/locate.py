@@ -12,6 +12,7 @@ import importlib.util
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -34,6 +35,9 @@ LONGEST_SOCKET = 107
 
 _COMPILED = Path(__file__).parents[2] / "adapters" / "bin"
 """Where the compiled adapters of this installation are, if there was a compiler."""
+
+HOW_TO_COMPILE = "install a C++ compiler, cmake and nlohmann-json3-dev, then ucm-cts again, with UCM_CTS_COMPILED=1 to see what is missing"
+"""The remedy where compiled parts are missing."""
 
 EndpointKind = Literal["python", "executable", "tcp", "unix"]
 
@@ -113,6 +117,24 @@ def namesakes(endpoint: Endpoint, file: str) -> Iterator[str]:
             yield found
 
 
+def file_named(endpoint: Endpoint) -> str:
+    """The file that ``endpoint`` names, which hosts load; of a module that is not there before it is loaded, its package's.
+
+    Nothing is loaded for it, and a product is not asked, which could name the file of another. Empty for an address.
+    """
+    if endpoint.kind not in ("python", "executable"):
+        return ""
+    if os.path.isabs(endpoint.target):
+        return endpoint.target
+    package, *modules = endpoint.target.partition(":")[0].split(".")
+    file, spec = "", _spec_of(package)
+    while spec is not None:
+        file = spec.origin if spec.origin and os.path.isfile(spec.origin) else file
+        inside = list(spec.submodule_search_locations or ())
+        spec = importlib.machinery.PathFinder.find_spec(modules.pop(0), inside) if modules else None
+    return file
+
+
 def _published(group: str) -> dict[str, EntryPoint]:
     published: dict[str, EntryPoint] = {}
     for entry in entry_points(group=group):
@@ -174,10 +196,7 @@ def _address(text: str) -> str:
 
 def _parse_path(text: str, path: Path) -> Endpoint:
     if path.parent == _COMPILED and not os.path.isfile(path):
-        raise WrongUse(
-            f"'{path.name}' is a compiled part of ucm-cts, and this installation has none: install a C++ compiler, cmake and "
-            "nlohmann-json3-dev, then ucm-cts again, with UCM_CTS_COMPILED=1 to see what is missing"
-        )
+        raise WrongUse(f"'{path.name}' is a compiled part of ucm-cts, and this installation has none: {HOW_TO_COMPILE}")
     if not os.path.isfile(path):  # also of a name that is too long to ask for
         raise WrongUse(
             f"there is no file '{text}'" if not os.path.exists(path) else f"'{text}' is no file; name the adapter in it"
@@ -192,12 +211,15 @@ def _parse_path(text: str, path: Path) -> Endpoint:
 
 
 def _is_there(module: str) -> bool:
-    if importlib.machinery.PathFinder.find_spec(module, [os.getcwd(), *sys.path]):
-        return True
-    try:
-        return importlib.util.find_spec(module) is not None
-    except (ValueError, ImportError):
-        return module in sys.modules
+    return _spec_of(module) is not None or module in sys.modules
+
+
+def _spec_of(package: str) -> importlib.machinery.ModuleSpec | None:
+    """Where the top-level ``package`` is found, also that of an editable installation."""
+    found = importlib.machinery.PathFinder.find_spec(package, [os.getcwd(), *sys.path])
+    with suppress(ValueError, ImportError):
+        found = found or importlib.util.find_spec(package)
+    return found
 
 
 def _what_there_is(text: str, published: Mapping[str, EntryPoint]) -> str:

@@ -20,7 +20,6 @@ class Connector:
     """Connects to a host that runs already; retries for a moment, because a replaced host may still be ending."""
 
     def __init__(self, endpoint: Endpoint) -> None:
-        self.file = ""
         self.left_behind: Counter[str] = Counter()
         self._endpoint = endpoint
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import resource
 import select
 import shutil
@@ -35,10 +36,22 @@ _NAMESPACES = (
     *("--die-with-parent", "--new-session", "--cap-drop", "ALL"),
 )
 _SHARED_MEMORY = 256 << 20
+_OF_THE_SYSTEM = ("sys", "sysrq-trigger", "irq", "bus", "acpi", "scsi", "fs", "driver", "mtrr", "dynamic_debug")
+"""What ``/proc`` has of the whole machine. A user of a sandbox who is root outside could write to it, and ``sys`` names programs that
+the system runs as root: bubblewrap protects the others only.
+"""
+
 _DEVICES = (
     *("--dev", "/dev", "--size", str(_SHARED_MEMORY), "--tmpfs", "/dev/shm"),
     *("--remount-ro", "/dev", "--proc", "/proc"),
+    *(word for name in _OF_THE_SYSTEM for word in ("--ro-bind-try", f"/proc/{name}", f"/proc/{name}")),
 )
+MOST_TASKS = 4096
+"""How many processes and threads a sandbox may have, where the system counts those of a sandbox by themselves. Root is not bound."""
+
+_COUNTS_BY_NAMESPACE = (5, 14)
+"""The version of Linux since which it does."""
+
 _BEGIN_SECONDS = 20.0
 _DEAD_SECONDS = 5.0
 _SIGNALLED = 128
@@ -133,7 +146,7 @@ class _Group:
             start_new_session=True,  # an interrupt at the terminal is for the harness
         )
         self.pid = self.process.pid
-        _limit_files(self.pid, largest_file)
+        _limit(self.pid, resource.RLIMIT_FSIZE, largest_file)
 
     def processes(self) -> frozenset[psutil.Process]:
         found = set(below(self.pid))
@@ -190,7 +203,8 @@ class _Sandboxed:
             if self._init is not None:
                 with suppress(OSError):
                     self._ends = os.pidfd_open(self._init)
-                _limit_files(self._init, largest_file)
+                _limit(self._init, resource.RLIMIT_FSIZE, largest_file)
+                _limit(self._init, resource.RLIMIT_NPROC, MOST_TASKS if _counts_by_namespace() else None)
             os.write(release, b"x")
         finally:
             for descriptor in (told, tell, held, release, arguments):
@@ -235,10 +249,17 @@ def exit_status(status: int) -> int:
     return -number if 0 < number <= signal.SIGRTMAX else status
 
 
-def _limit_files(pid: int, largest: int | None) -> None:
-    if largest is not None:
+def _limit(pid: int, what: int, most: int | None) -> None:
+    if most is not None:
         with suppress(OSError, ValueError):  # it has ended
-            resource.prlimit(pid, resource.RLIMIT_FSIZE, (largest, largest))
+            _, hard = resource.prlimit(pid, what)
+            least = most if hard == resource.RLIM_INFINITY else min(most, hard)
+            resource.prlimit(pid, what, (least, least))
+
+
+def _counts_by_namespace() -> bool:
+    found = re.match(r"(\d+)\.(\d+)", os.uname().release)
+    return found is not None and (int(found[1]), int(found[2])) >= _COUNTS_BY_NAMESPACE
 
 
 def _first_process(told: int) -> int | None:

@@ -16,7 +16,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, read
-from ucm_cts.harness.catalogue.requirements import SUITE, load_interpretations
+from ucm_cts.harness.catalogue.requirements import SUITE, load_options
 from ucm_cts.harness.models.comparing import Comparing, Declaration, Fact, Status
 from ucm_cts.harness.models.spellings import Element, read_models
 
@@ -103,7 +103,7 @@ def core_catalogue() -> Catalogue:
 
 @functools.cache
 def _first_values() -> dict[str, str]:
-    return {option: values[0] for i in load_interpretations() for option, values in i.options.items()}
+    return {option: values[0] for option, values in load_options().items()}
 
 
 @functools.cache

@@ -76,6 +76,11 @@ class Certificate(Value, frozen=True):
         return f"certificates/{self.digest}.html"
 
     @property
+    def archive(self) -> str:
+        """The name of its archive in the site."""
+        return f"certificates/{self.digest}.ucmcert"
+
+    @property
     def name(self) -> str:
         """Product and version on one line."""
         return one_line(f"{self.product} {self.version}".strip(), LONGEST_NAME)

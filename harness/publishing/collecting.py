@@ -16,6 +16,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Lock
+from typing import NamedTuple
 
 import msgspec
 
@@ -50,7 +51,7 @@ class Verifier:
     """
 
     command: Sequence[str]
-    seconds: float = 120.0
+    seconds: float = 600.0
     memory: int = 4096
     _running: set[subprocess.Popen[bytes]] = field(default_factory=set)
     _lock: Lock = field(default_factory=Lock)
@@ -125,16 +126,24 @@ def verifying_command(trust: Path, *options: str) -> tuple[str, ...]:
     return (sys.executable, "-m", "ucm_cts", "verify", "--json", "--trust", str(trust.absolute()), *options, "--")
 
 
-def collect(
-    folder: Path, verifier: Verifier, memory: Memory, jobs: int, tell: Callable[[int, int], None]
-) -> tuple[list[Certificate], list[Fallen]]:
-    """All archives below ``folder``, verified: those that stand, and those that do not. An archive that is there twice counts
-    once. ``tell`` hears how many are done, and of how many. Raises ``WrongUse``.
+class Collected(NamedTuple):
+    """The archives of a folder: the certificates that stand, beginning with the oldest; what does not stand; and where the
+    archive of each certificate that stands is, by its digest.
+    """
+
+    stand: list[Certificate]
+    fall: list[Fallen]
+    archives: dict[str, Path]
+
+
+def collect(folder: Path, verifier: Verifier, memory: Memory, jobs: int, tell: Callable[[int, int], None]) -> Collected:
+    """All archives below ``folder``, verified. An archive that is there twice counts once. ``tell`` hears how many are done,
+    and of how many. Raises ``WrongUse``.
     """
     found = sorted(_archives(folder))
     if len(found) > MOST:
         raise WrongUse(f"'{folder}' has {len(found):,} archives; a site has at most {MOST:,}")
-    seen: dict[str, Certificate | Fallen | None] = {}
+    seen: dict[str, Path] = {}
     lock = Lock()
     done = 0
 
@@ -151,7 +160,7 @@ def collect(
             digest = hashlib.sha256(content).hexdigest()
             with lock:
                 is_new = digest not in seen
-                seen.setdefault(digest, None)
+                seen.setdefault(digest, path)
             outcome = _verified(content, digest, file, verifier, memory) if is_new else None
         with lock:
             done += 1
@@ -167,7 +176,11 @@ def collect(
             raise
     stand = [outcome for outcome in outcomes if isinstance(outcome, Certificate)]
     fall = [outcome for outcome in outcomes if isinstance(outcome, Fallen)]
-    return sorted(stand, key=lambda one: one.age), sorted(fall, key=lambda one: (one.file, one.digest))
+    return Collected(
+        sorted(stand, key=lambda one: one.age),
+        sorted(fall, key=lambda one: (one.file, one.digest)),
+        {one.digest: seen[one.digest] for one in stand},
+    )
 
 
 def _verified(content: bytes, digest: str, file: str, verifier: Verifier, memory: Memory) -> Certificate | Fallen:

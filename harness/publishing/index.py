@@ -13,14 +13,15 @@ from ucm_cts.harness.report.order import count
 from ucm_cts.harness.results.foreign import clean
 from ucm_cts.harness.results.values import Overall
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 SCHEMA_FILE = "index.schema.json"
 SCHEMA_ID = f"urn:ucm-cts:schema:certificates:{SCHEMA_VERSION}"
 """The ``$id`` of the schema, the same for all sites of this version of it."""
 
 
 class CertificateEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A certificate that stands. ``digest`` is the SHA-256 of its archive; the last fields are files of the site.
+    """A certificate that stands. ``archive`` is the archive's name as it was found, ``digest`` its SHA-256; the last fields are files of the site, ``download``
+    the archive itself.
 
     ``judged_by`` is not empty if the rules of another suite than that of the run were applied: then it certifies nothing.
     """
@@ -39,6 +40,7 @@ class CertificateEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     judged_by: str
     requirements: dict[str, int]
     page: str
+    download: str
     earl: str
     badge: str
 
@@ -101,6 +103,7 @@ def _certificate(one: Certificate) -> CertificateEntry:
         clean(one.judged_by, 200),
         {verdict: number for verdict, number in count(one.result.requirements).items() if number},
         one.page,
+        one.archive,
         f"certificates/{one.digest}.jsonld",
         f"badges/{one.digest}.svg",
     )

@@ -1,4 +1,4 @@
-"""All files of the site, by their names; the same certificates give the same bytes."""
+"""All files of the site, by their names; the same certificates give the same bytes. Archives are copied as they are."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from ucm_cts.harness.report.page import Pages, part
 
 FILES = (
     "index.html", "requirements.html", "about.html", "style.css", "site.js", "index.json", SCHEMA_FILE, "feed.atom",
-    "products/*.html", "certificates/*.html", "certificates/*.jsonld", "requirements/R-*.html", "badges/*.svg", "badges/*.json",
+    "products/*.html", "certificates/*.html", "certificates/*.jsonld", "certificates/*.ucmcert",
+    "requirements/R-*.html", "badges/*.svg", "badges/*.json",
 )  # fmt: skip
 """Patterns of all files of a site."""
 
@@ -42,7 +43,7 @@ _TEMPLATES = Path(__file__).parent / "templates"
 
 
 def site_files(site: Site, catalogue: Iterable[Requirement], url: str = "") -> dict[str, bytes]:
-    """The whole site. ``url`` is where it will be, ending with a slash; empty if that is not known."""
+    """The whole site but the archives. ``url`` is where it will be, ending with a slash; empty if that is not known."""
     products = {(one.product, one.signers): one for one in site.products}
     known = {entry.id: entry for entry in catalogue}
     pages = Pages(
@@ -56,6 +57,7 @@ def site_files(site: Site, catalogue: Iterable[Requirement], url: str = "") -> d
         assurances=ASSURANCES,
         badge_of=badge_of,
         suite_version=ucm_cts.__version__,
+        url=url,
         markdown=lambda product, one: _markdown(product, one, url),
     )
     files: dict[str, bytes] = {
@@ -96,7 +98,6 @@ def _certificate(pages: Pages, one: Certificate, product: Product) -> bytes:
         titles=titles,
         failures=[failure for failure in one.result.failures if failure.requirement in titles],
         undecided=undecided,
-        archive="",
     )
     return page.encode()
 

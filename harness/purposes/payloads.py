@@ -77,11 +77,6 @@ def with_payloads(scenario: Scenario, change: Callable[[int], int]) -> Scenario:
 
 def _payloads(scenario: Scenario) -> list[int]:
     """The distinct payloads of ``scenario``, in the order they are met."""
-    met: dict[int, None] = {}
-
-    def meet(value: int) -> int:
-        met[value] = None
-        return value
-
-    with_payloads(scenario, meet)
-    return list(met)
+    actions = (a for one in scenario.components.values() for planned in one.plan.values() for a in planned)
+    carrying = [a.value for a in actions if isinstance(a, s.CallPort | s.ReturnValue)]
+    return list(dict.fromkeys([*carrying, *(one.value for one in scenario.steps if isinstance(one, s.Invoke))]))

@@ -145,10 +145,12 @@ def _check_version(path: Path, text: str | bytes) -> None:
     if found.suite_version and found.schema_version != SCHEMA_VERSION:
         which = f"schema version {found.schema_version}" if found.schema_version is not None else "no schema version"
         by = one_line(found.suite_version, 40)
+        is_newer = found.schema_version is not None and found.schema_version > SCHEMA_VERSION
+        remedy = "update ucm-cts" if is_newer else "make it again with 'ucm-cts run'"
         raise DocumentError(
             path,
             None,
-            f"has {which} (written by UCM-CTS {by}), and this one reads version {SCHEMA_VERSION}; run it again",
+            f"has {which} (written by UCM-CTS {by}), and this one reads version {SCHEMA_VERSION}; {remedy}",
         )
 
 

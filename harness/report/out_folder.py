@@ -15,6 +15,7 @@ import secrets
 import stat
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
@@ -43,6 +44,21 @@ class Manifest(msgspec.Struct, frozen=True):
     def holds(self, name: str, digest: str) -> bool:
         """Did a command write the file ``name`` with that content?"""
         return bool(digest) and digest in (self.files.get(name), self.before.get(name))
+
+
+@dataclass(frozen=True)
+class Copy:
+    """A file that is copied: its content must have the SHA-256 ``digest``."""
+
+    path: Path
+    digest: str
+
+    def content(self) -> bytes:
+        """The bytes. Raises ``OSError``, also if they have changed."""
+        content = self.path.read_bytes()
+        if hashlib.sha256(content).hexdigest() != self.digest:
+            raise OSError(errno.ESTALE, "it was changed meanwhile", str(self.path))
+        return content
 
 
 class OutFolder:
@@ -89,7 +105,7 @@ class OutFolder:
         os.close(self._root)
         self._root = -1
 
-    def save(self, files: Mapping[str, bytes], instead_of: Sequence[str] = ()) -> None:
+    def save(self, files: Mapping[str, bytes | Copy], instead_of: Sequence[str] = ()) -> None:
         """Write ``files``, by their relative names, and remove own files that match ``instead_of`` and are not among them.
 
         All files are written beside the old ones first, and then renamed. Raises ``OSError``; nothing is replaced then.
@@ -109,7 +125,10 @@ class OutFolder:
         for name in files:
             if name not in own and self._is_there(name):
                 raise FileExistsError(errno.EEXIST, "is there, and not of a run", str(self.path / name))
-        new = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
+        new = {
+            name: content.digest if isinstance(content, Copy) else hashlib.sha256(content).hexdigest()
+            for name, content in files.items()
+        }
         stale = {name for name in own - new.keys() if _fits(name, instead_of)}
         kept = {name for name in known.files if name in own - stale or not self._matches(name)}
         during = Manifest(known.files | new, known.files)
@@ -257,7 +276,7 @@ class OutFolder:
             os.close(handle)
 
     @contextmanager
-    def _staged(self, contents: Sequence[bytes]) -> Iterator[tuple[int, list[str]]]:
+    def _staged(self, contents: Sequence[bytes | Copy]) -> Iterator[tuple[int, list[str]]]:
         """A hidden folder with ``contents`` in files, and their names; it is removed in the end."""
         hidden = _hidden()
         os.mkdir(hidden, 0o700, dir_fd=self._root)
@@ -268,7 +287,7 @@ class OutFolder:
                     for name, content in zip(names, contents, strict=True):
                         handle = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o644, dir_fd=folder)
                         with os.fdopen(handle, "wb") as file:
-                            file.write(content)
+                            file.write(content.content() if isinstance(content, Copy) else content)
                     yield folder, names
                 finally:
                     for name in names:

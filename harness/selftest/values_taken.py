@@ -30,10 +30,7 @@ def values_taken() -> Mapping[OptionValue, tuple[str, ...]]:
     any other default must be declared by somebody, for the references may do more than it says.
     """
     found: dict[OptionValue, list[str]] = {
-        (option, value): []
-        for entry in load_interpretations()
-        for option, values in entry.options.items()
-        for value in values
+        (option, value): [] for option, values in load_options().items() for value in values
     }
     for name, option, value in _taken():
         found[option, value].append(name)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import msgspec
 
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PARTS
-from ucm_cts.harness.catalogue.requirements import load_interpretations, load_requirements
+from ucm_cts.harness.catalogue.requirements import load_options, load_requirements
 from ucm_cts.harness.results.statement import HOOKS, IMPOSSIBLE, Statement, default_statement
 from ucm_cts.harness.statement.applicability import lines_for
 
@@ -63,7 +63,7 @@ def to_decide(statement: Statement, asked: Mapping[str, frozenset[str]]) -> Mapp
     but the adapter's to offer, unless there may be nothing to test. What is declared, is decided.
     """
     parts = {part for profile in statement.profiles for part in PARTS[profile]}
-    options = {option: values for e in load_interpretations() for option, values in e.options.items()}
+    options = load_options()
     found: dict[str, set[str]] = {}
     for requirement in load_requirements():
         if requirement.profile not in parts or requirement.untestable:

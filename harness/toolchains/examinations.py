@@ -56,7 +56,7 @@ def examination_for(
 
     ``command`` says of generated C++ which compiler takes it, and where its headers are. Code is generated from ``models`` only, if
     they are named. ``untouched`` is why no compiler may read what was generated, and nothing of it may run; empty if that may be.
-    ``sandbox``: compilers, and what they make, run in one, where ``network`` says whether there is a network. Raises ``WrongUse``.
+    ``sandbox``: compilers, omniidl, and what they make, run in one, where ``network`` says whether there is a network. Raises ``WrongUse``.
     """
     unfinished = in_the_making(profile)
     if unfinished:
@@ -66,7 +66,11 @@ def examination_for(
     if task == "check":
         return Acceptance(statement, renaming, expression)
     if task == "idl":
-        second_opinion = functools.partial(_no_opinion, untouched) if untouched else opinion
+        second_opinion = (
+            functools.partial(_no_opinion, untouched)
+            if untouched
+            else functools.partial(opinion, sandbox=sandbox, network=network)
+        )
         compare = functools.partial(_compare_idl, statement.readings, second_opinion)
         return Generation(
             compare,

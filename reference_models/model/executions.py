@@ -307,18 +307,18 @@ def is_contradictory(declaration: Declaration) -> bool:
     return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
 
 
-def is_plainest(declaration: Declaration, scenario: s.Scenario, ics: Ics) -> bool:
+def is_plainest(declaration: Declaration, knows_policies: bool, ics: Ics) -> bool:
     """Does no policy of the component give a reason to refuse it? It has none in a scenario that knows none, or only the one that it must
     have where components without any are declared refused.
     """
     if not declaration.policies:
-        return not knows_policies(scenario)
+        return not knows_policies
     is_passive = declaration.policies in ((s.Policy(s.UNPROTECTED_PASSIVE),), (s.Policy(s.PROTECTED_PASSIVE),))
     return is_passive and ics.reading("missing-execution-policy") == "refuse"
 
 
 def knows_policies(scenario: s.Scenario) -> bool:
-    """Has any component an execution policy? Otherwise it is a scenario of profile container, which knows none."""
+    """Has any component an execution policy?"""
     return any(protection_of(declaration) for declaration in scenario.components.values())
 
 
@@ -326,7 +326,7 @@ def without_policy(runtime: Runtime, container: Container) -> list[Member]:
     """The members of ``container`` without execution policy, where that is the only reason to refuse its start; none in a scenario that
     knows no policies.
     """
-    if not knows_policies(runtime.scenario) or container.started:
+    if not runtime.knows_policies or container.started:
         return []
     members = container.live_members()
     if any(not m.connected or m.raises("on_startup") for m in members):

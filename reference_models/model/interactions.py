@@ -126,7 +126,7 @@ class Interactions:
 
     def ends_phases(self, begin: int, end: int) -> bool:
         """Was something in progress between these events that stops or removes components, or undoes connections?"""
-        return any(o.step.undoes in ("phase", "connection") and o.overlaps(begin, end) for o in self.operations)
+        return any(o.step.undoes in ("phase", "connection") and o.overlaps(begin, end) for o in self.changes)
 
     def wait(self, event: t.Timeout) -> None:
         """A wait ran out of patience."""

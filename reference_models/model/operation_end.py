@@ -70,6 +70,7 @@ def _find_intrusions(
     strangers = [(c, i) for c, i in ongoing.by_body if id(runtime.bodies.get((c, i or 0))) not in concerned]
     if not strangers and len(runtime.containers) == 1:
         return
+    are_all_concerned = not strangers and not runtime.shares_bodies
     called = {c.body for c in ongoing.callbacks if c.hook in LIFE_CYCLE_HOOKS}
     removes = ongoing.operation in ("remove_component", "remove_container")
     for member in runtime.present:
@@ -82,6 +83,8 @@ def _find_intrusions(
             if elsewhere:
                 outcome.others_undisturbed = True
                 outcome.is_plain = outcome.is_plain and ongoing.operation not in ("start", "stop", "remove_container")
+                if are_all_concerned:
+                    return
             continue
         if elsewhere and ongoing.container.name == s.MANAGER and ongoing.operation in OF_ALL_MEMBERS:
             continue

@@ -49,7 +49,8 @@ class Prediction:
 
     def perform(self, step: s.ContainerCall) -> OperationInProgress:
         """Carry ``step`` out in the first way that suits every instance concerned."""
-        return self.carry_out(step, next(self.ways(self.begin(step))))
+        ongoing = self.begin(step)
+        return self._carry_out(ongoing, step, next(self.ways(ongoing)))
 
     def ways(self, ongoing: OperationInProgress) -> Iterator[Way]:
         """Ways to go that the table permits, the first one first: with each answer, each instance does each thing that it
@@ -76,7 +77,9 @@ class Prediction:
 
     def carry_out(self, step: s.ContainerCall, way: Way) -> OperationInProgress:
         """Carry ``step`` out in that ``way``, one of ``ways``."""
-        ongoing = self.begin(step)
+        return self._carry_out(self.begin(step), step, way)
+
+    def _carry_out(self, ongoing: OperationInProgress, step: s.ContainerCall, way: Way) -> OperationInProgress:
         for (member, _), hooks in zip(ongoing.roles, way.callbacks, strict=True):
             component, instance = self._body(step, member)
             for hook in hooks if component else ():

@@ -105,7 +105,7 @@ class RowSelection:
             declaration is not None
             and (is_contradictory(declaration) or has_several_clocks(declaration) or has_unknown_policy(declaration))
         )
-        if declaration is not None and not is_plainest(declaration, runtime.scenario, runtime.ics):
+        if declaration is not None and not is_plainest(declaration, runtime.knows_policies, runtime.ics):
             ongoing.forgiving = (
                 True  # whether it may be refused is the matter of policy_supported and execution_policy_given
             )

@@ -271,7 +271,9 @@ class Runtime:
 
     ``members``, ``connections``, ``references``: what variables hold now.
     ``present``: the instances in the order in which they were added, without those that have been removed without a trace.
-    ``with_policies``: an instance had policies.
+    ``with_policies``: an instance had policies; ``knows_policies``: a component of the scenario has an execution
+    policy; otherwise it is one of profile container, which knows none.
+    ``shares_bodies``: two instances seemed to have the same body.
     ``startups``: when the last on_startup of each body began (``n``), and on which thread.
     ``starting``: bodies whose on_startup has returned during the operation in progress.
     ``starting_up``: bodies inside on_startup because their container is being started, each with its thread.
@@ -288,6 +290,8 @@ class Runtime:
         self.members: dict[str, Member] = {}
         self.present: list[Member] = []
         self.with_policies = False
+        self.knows_policies = False
+        self.shares_bodies = False
         self.bodies: dict[tuple[str, int], Member] = {}
         self.discarded: set[tuple[str, int]] = set()
         self.startups: dict[tuple[str, int], tuple[int, int]] = {}
@@ -321,6 +325,7 @@ class Runtime:
         self.present.append(member)
         self.with_policies = self.with_policies or bool(member.declaration.policies)
         if member.instance is not None:
+            self.shares_bodies = self.shares_bodies or member.body in self.bodies
             self.bodies[member.body] = member
 
     def let_go(self, member: Member) -> None:
@@ -332,12 +337,6 @@ class Runtime:
     def provider_of(self, reference: MaybeReference) -> Member | None:
         """The instance that a recognised reference belongs to."""
         return self.bodies.get((reference.component, reference.instance)) if isinstance(reference, Reference) else None
-
-    def started_before(self, one: Member, other: Member) -> bool:
-        """Was the one started before the other, and for certain? Threads may start two of them at a time."""
-        first = self.startups.get(one.body)
-        second = self.startups.get(other.body)
-        return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
 
     def may_run(self, member: Member) -> bool:
         """Has its last on_startup returned, and the stop that follows not?"""

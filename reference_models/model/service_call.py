@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from ucm_cts.adapters.contract.data_types import Interface, Method
 from ucm_cts.adapters.contract.trace import Exit
 from ucm_cts.reference_models.model.links import End, LinkState
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
+
+Trouble = Literal[
+    "", "not served", "elsewhere", "twice", "arguments", "results", "failed", "early", "swallowed", "translated"
+]
+"""What went wrong with a call that nothing disturbed: its server was not entered, another body was, the server was twice;
+values changed on their way; it ended with an exception of the framework's own, or before its server was done; the server's
+exception did not arrive, or another one did.
+"""
 
 
 @dataclass(frozen=True)

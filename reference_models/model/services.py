@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
@@ -12,15 +12,10 @@ from ucm_cts.reference_models.model.messages import counts, settling_time
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import NO_ID, Member
-from ucm_cts.reference_models.model.service_call import ServiceCall
+from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
+from ucm_cts.reference_models.model.values_carried import altered_calls
 
-Trouble = Literal[
-    "", "not served", "elsewhere", "twice", "arguments", "results", "failed", "early", "swallowed", "translated"
-]
-"""What went wrong with a call that nothing disturbed: its server was not entered, another body was, the server was twice;
-values changed on their way; it ended with an exception of the framework's own, or before its server was done; the server's
-exception did not arrive, or another one did.
-"""
+_OF_VALUES = ("arguments", "results", "translated")
 
 _QUIET = 0.5
 """The part of patience in which nothing may have happened for a call to be left hanging."""
@@ -69,7 +64,7 @@ def _may_be_broken(runtime: ObservedRuntime, call: MethodCall) -> bool:
     if not any(link.was_broken for link in interactions.links.values()):
         return False
     last: dict[str, Operation] = {}
-    for o in interactions.operations:
+    for o in interactions.changes:
         if isinstance(o.step, s.Break | s.Mend) and o.begin.n < call.request.n and not isinstance(o.end, Raise):
             last[o.step.link] = o
     known_by = call.request.t - settling_time(runtime)
@@ -93,15 +88,15 @@ def is_nested(one: ServiceCall) -> bool:
     return any(caller.enter.method is not None for caller in one.call.business.callers())
 
 
-def operations_beside(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:
-    """The operations that were in progress while the call was."""
-    interactions = runtime.interactions
-    return [o for o in interactions.operations if o.overlaps(one.call.request.n, one.over)]
+def changes_beside(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:
+    """The operations that change something and were in progress while the call was."""
+    begin, end = one.call.request.n, one.over
+    return [o for o in runtime.interactions.changes if o.overlaps(begin, end)]
 
 
 def disturbed_at(runtime: ObservedRuntime, one: ServiceCall) -> int | None:
     """When something began, while it was in progress or before, that may be a reason not to carry it out."""
-    beside = operations_beside(runtime, one)
+    beside = changes_beside(runtime, one)
     disturbing = [o for o in beside if o.step.undoes == "phase" or _takes_away(runtime, one, o)]
     return min((o.begin.n for o in disturbing), default=None)
 
@@ -127,7 +122,7 @@ def ended_by(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:
     containers = {one.client.member.container.name, one.server.member.container.name}
     return [
         o
-        for o in operations_beside(runtime, one)
+        for o in changes_beside(runtime, one)
         if o.begin.n > one.call.request.n and not isinstance(o.end, Raise)
         if (isinstance(o.step, s.Stop) and o.step.container in containers)
         or (isinstance(o.step, s.Detach) and _takes_away(runtime, one, o))
@@ -189,6 +184,29 @@ def trouble_with(runtime: ObservedRuntime, one: ServiceCall) -> Trouble:
     return _answered(left, reply)
 
 
+def undisturbed(runtime: ObservedRuntime) -> list[tuple[ServiceCall, Trouble]]:
+    """The calls that came back and that nothing disturbed, each with what is wrong with it; none whose values were altered
+    for their types' sake, which is the matter of 10.1.1.
+    """
+    if runtime.undisturbed is not None:
+        return runtime.undisturbed
+    calls = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
+    judged = [(one, trouble_with(runtime, one)) for one in calls]
+    altered = altered_calls(runtime) if any(trouble in _OF_VALUES for _, trouble in judged) else ()
+    found = [(one, trouble) for one, trouble in judged if one.call not in altered]
+    if runtime.is_over:
+        runtime.undisturbed = found
+    return found
+
+
+def shared_links(calls: Iterable[ServiceCall]) -> frozenset[int]:
+    """The links, by ``id()``, through which several clients made ``calls``."""
+    clients: dict[int, set[int]] = {}
+    for one in calls:
+        clients.setdefault(id(one.link), set()).add(id(one.client))
+    return frozenset(link for link, of in clients.items() if len(of) > 1)
+
+
 def _answered(left: Exit, reply: Reply) -> Trouble:
     normally = not reply.failed
     if left.failed:
@@ -218,7 +236,7 @@ def what_sets_apart(
 def _was_mended(runtime: ObservedRuntime, one: ServiceCall) -> bool:
     return any(
         isinstance(o.step, s.Mend) and o.step.link == one.link.name and o.begin.n < one.call.request.n
-        for o in runtime.interactions.operations
+        for o in runtime.interactions.changes
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Return
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
@@ -143,3 +145,17 @@ def _reached_unseen(runtime: Runtime, container: Container) -> None:
         for other in runtime.containers.values():
             if other is not container and not other.live_members():
                 other.started = None
+
+
+def is_stopped_late(runtime: Runtime, stopped: Sequence[Member]) -> bool:
+    """Was a member stopped before one that was started after it, for certain? Threads may start two at a time."""
+    latest: dict[int, int] = {}
+    for member in stopped:
+        began = runtime.startups.get(member.body)
+        if began is None:
+            continue
+        moment, thread = began
+        if latest.get(thread, moment) < moment:
+            return True
+        latest[thread] = moment
+    return False

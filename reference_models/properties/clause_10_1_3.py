@@ -30,7 +30,7 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
     option = "missing-execution-policy"
     declarations = runtime.scenario.components
-    if not ex.knows_policies(runtime.scenario):
+    if not runtime.knows_policies:
         return ()
     if isinstance(ongoing.step, s.AddComponent):
         declaration = declarations.get(ongoing.step.component)

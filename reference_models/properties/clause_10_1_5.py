@@ -16,21 +16,19 @@ from ucm_cts.reference_models.model.method_calls import Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane
-from ucm_cts.reference_models.model.service_call import ServiceCall
+from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
 from ucm_cts.reference_models.model.services import (
-    Trouble,
     disturbed_at,
     ended_by,
-    is_disturbed,
     is_left_hanging,
     led_astray,
     new_types,
     service_calls,
+    shared_links,
     strays,
-    trouble_with,
+    undisturbed,
     what_sets_apart,
 )
-from ucm_cts.reference_models.model.values_carried import altered_calls
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
@@ -42,31 +40,21 @@ _REFUSALS = ("BAD_PARAMETER", "UCM_ERROR")
 
 _SET_APART = {"inherited": _INHERITED, "second server": _ONE_SERVER, "client": _CLIENTS}
 
-_OF_VALUES = ("arguments", "results", "translated")
-
-
-def _undisturbed(runtime: ObservedRuntime) -> list[tuple[ServiceCall, Trouble]]:
-    """The calls that came back and that nothing disturbed, each with what is wrong with it; none whose values were altered
-    for their types' sake, which is the matter of 10.1.1.
-    """
-    calls = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
-    judged = [(one, trouble_with(runtime, one)) for one in calls]
-    altered = altered_calls(runtime) if any(trouble in _OF_VALUES for _, trouble in judged) else ()
-    return [(one, trouble) for one, trouble in judged if one.call not in altered]
-
 
 @property_at("closed", _CALLS, _CLIENTS, _OWN, _ONE_SERVER, _INHERITED, _TEMPLATE)
 def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call enters the connected server once, at the method called, and comes back as the server was left."""
-    judged = _undisturbed(runtime)
+    judged = undisturbed(runtime)
     good = [one for one, trouble in judged if not trouble]
+    shared = shared_links(good)
+    several = len({one.link.interface for one in good}) > 1
     for one in good:
         yield check.kept(_CALLS)
         if one.is_inherited:
             yield check.kept(_INHERITED)
-        if len({id(other.client) for other in good if other.link is one.link}) > 1:
+        if id(one.link) in shared:
             yield check.kept(_CLIENTS)
-        if len({other.link.interface for other in good}) > 1:
+        if several:
             yield check.kept(_TEMPLATE)
     expected = "enters the server once and comes back as the server was left"
     for one, trouble in judged:
@@ -89,7 +77,7 @@ def service_call_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call that nothing disturbs ends when its server has been left, if the server waits for no other body."""
     for one in service_calls(runtime):
         if one.call.reply is None and _may_be_expected(one) and _hangs(runtime, one, disturbed_at(runtime, one)):
-            good = [other for other, trouble in _undisturbed(runtime) if not trouble]
+            good = [other for other, trouble in undisturbed(runtime) if not trouble]
             observed = "the server was left, and it did not end" if one.exit else "it did not end"
             requirement = _concerned(runtime, one, good)
             yield _violate(check, requirement, "hangs", one, "ends", observed)
@@ -128,11 +116,13 @@ def _may_be_expected(one: ServiceCall) -> bool:
 @property_at("closed", _OWN, _DIRECTIONS, _CALLS)
 def service_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """The client's values reach the server, and the server's results reach the client that called."""
-    judged = _undisturbed(runtime)
+    judged = undisturbed(runtime)
+    shared = shared_links(one for one, _ in judged)
     for one, trouble in judged:
         method, given = one.method, one.exit
         several = method is not None and any(p.direction in ("OUT", "INOUT") for p in method.parameters)
-        beside = [other for other, _ in judged if one.meets(other) and other.exit is not None]
+        others_meet = judged if id(one.link) in shared else ()
+        beside = [other for other, _ in others_meet if one.meets(other) and other.exit is not None]
         if not trouble and given is not None and not given.raised:
             if several and given.exception is None:
                 yield check.kept(_DIRECTIONS)
@@ -161,7 +151,7 @@ def _values(values: object) -> str:
 @property_at("closed", _EXCEPTIONS)
 def service_exceptions(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """An exception of the server's is one for the client: the same one, unless it may be any."""
-    for one, trouble in _undisturbed(runtime):
+    for one, trouble in undisturbed(runtime):
         left, reply = one.exit, one.call.reply
         if left is None or reply is None or left.n > reply.n or not left.failed:
             continue
@@ -184,7 +174,7 @@ def service_exceptions(check: Property, runtime: ObservedRuntime) -> Conclusions
 def service_blocks(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """No call comes back with an answer before its server's method was left."""
     settled = runtime.interactions.settled
-    for one, trouble in _undisturbed(runtime):
+    for one, trouble in undisturbed(runtime):
         left = one.exit
         if trouble == "early":
             expected = "comes back when the server's method has been left"
@@ -255,7 +245,7 @@ def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
 @property_at("closed", _CALLS)
 def service_uncalled(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A server is entered because a client of its own connection called."""
-    explained = [led_astray(runtime, one) for one, trouble in _undisturbed(runtime) if trouble == "elsewhere"]
+    explained = [led_astray(runtime, one) for one, trouble in undisturbed(runtime) if trouble == "elsewhere"]
     for delivery in strays(runtime):
         if any(delivery is other for other in explained) or _may_be_late(runtime, delivery.enter.n):
             continue
@@ -292,7 +282,7 @@ def servers_that_left(check: Property, runtime: ObservedRuntime) -> Conclusions:
 def _may_be_late(runtime: ObservedRuntime, moment: int) -> bool:
     """Were connections undone, or broken, before? Then it is open what is still on its way."""
     undoing = (s.Detach, s.Break, s.Mend)
-    return any(isinstance(o.step, undoing) and o.begin.n < moment for o in runtime.interactions.operations)
+    return any(isinstance(o.step, undoing) and o.begin.n < moment for o in runtime.interactions.changes)
 
 
 @property_at("linked", _CALLS, _CLIENTS, _ONE_SERVER, _TEMPLATE)

@@ -127,7 +127,7 @@ def unready_receivers(check: Property, runtime: ObservedRuntime, call: MethodCal
 def _was_kept_waiting(runtime: ObservedRuntime, call: MethodCall, receiver: Member) -> bool:
     """Has this message, or one before it, been pushed when it could have come while the receiver was not operational?"""
     since = runtime.startups.get(receiver.body, (0, 0))[0]
-    starts = [o.begin.n for o in runtime.interactions.operations if isinstance(o.step, s.Start)]
+    starts = [o.begin.n for o in runtime.interactions.changes if isinstance(o.step, s.Start)]
     started = max((n for n in starts if n < since), default=0)
     last = min(call.request.n, started - 1)
     earlier = [c for c in msg.messages(runtime) if c.link is call.link and c.request.n <= last]

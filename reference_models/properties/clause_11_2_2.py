@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Reference, Return
@@ -13,6 +11,7 @@ from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS, OperationInProgress
 from ucm_cts.reference_models.model.runtime import Container, Member
+from ucm_cts.reference_models.model.start_effects import is_stopped_late
 from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
 _FAILED_INIT = "R-12.10-22"
@@ -223,7 +222,7 @@ def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
     expected = [m for m in reversed(started) if m in stopped]
     if len(expected) < 2:
         return ()
-    if not any(runtime.started_before(one, other) for one, other in itertools.combinations(stopped, 2)):
+    if not is_stopped_late(runtime, stopped):
         if stopped == expected:
             return check.kept()
         return ()

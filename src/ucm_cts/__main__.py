@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import suppress
-from pathlib import Path
 
 
 def _open_standard_streams() -> None:
@@ -30,17 +29,7 @@ def _prefer_what_is_installed() -> None:
 
 
 def main() -> None:
-    """Run the command line; ``--cmakedir`` prints where CMake finds the package."""
-    if sys.argv[1:] == ["--cmakedir"]:
-        folder = Path(__file__).parent / "share" / "cmake" / "ucm_cts"
-        if not folder.is_dir():
-            sys.stderr.write(
-                "ucm-cts: this installation has no CMake package: install a C++ compiler, cmake and nlohmann-json3-dev, then "
-                "ucm-cts again, with UCM_CTS_COMPILED=1 to see what is missing\n"
-            )
-            sys.exit(2)
-        print(folder)
-        return
+    """Run the command line."""
     _open_standard_streams()
     with suppress(OSError):  # there is no current folder, which the command line says
         _prefer_what_is_installed()

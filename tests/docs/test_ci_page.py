@@ -69,7 +69,8 @@ def pip(here: Path) -> Path:
     return here / "pip"
 
 
-def check(first: list[Any], second: list[Any], pip: Path) -> None:
+def check(first: list[Any], second: list[Any], pip: Path, versions: list[str]) -> None:
+    """The first push is good, the second has a regression, and the history has ``versions``."""
     assert all(done.returncode == 0 for done in first), first
     assert second[-1].returncode == 1, second
     assert "REGRESSED" in second[-1].stdout
@@ -81,9 +82,9 @@ def check(first: list[Any], second: list[Any], pip: Path) -> None:
     assert extra
     assert extra[1] in tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     with duckdb.connect("ucm-kept/history.duckdb") as connection:
-        assert connection.execute("SELECT version FROM runs").fetchall() == [("1.0",)]
+        assert connection.execute("SELECT version FROM runs").fetchall() == [(version,) for version in versions]
         (query,) = re.findall(r"(?ms)^<!-- sql -->\n```sql\n(.*?)^```$", PAGE.read_text())
-        assert connection.execute(query).fetchall() == []
+        assert connection.execute(query).fetchall() == [(version, 1) for version in versions if version != "1.0"]
 
 
 @pytest.mark.slow
@@ -91,10 +92,12 @@ def test_github_job(pip: Path) -> None:
     steps = job("ucm.yml")["steps"]
     on_main = [step["run"] for step in steps if "run" in step]
     elsewhere = [step["run"] for step in steps if "run" in step and "if" not in step]
-    assert len(on_main) == len(elsewhere) + 1
+    assert len(on_main) == len(elsewhere) + 2
     first, second = push(GOOD, on_main, {}), push(WORSE, elsewhere, {})
-    check(first, second, pip)
+    check(first, second, pip, ["1.0"])
     assert "::error title=R-11." in second[-1].stdout
+    (saves,) = (step for step in steps if step.get("uses", "").startswith("actions/cache/save"))
+    assert saves["if"].startswith("always()"), "a regression on the main branch belongs to the history, too"
 
 
 @pytest.mark.slow
@@ -102,23 +105,27 @@ def test_gitlab_job(pip: Path, here: Path) -> None:
     """Its run is that of the other job, line for line, and here a copy of the report of one."""
     lines = job("gitlab-ci.yml")["script"]
     (certify,) = (line for line in lines if line.startswith("ucm-cts run "))
-    assert certify in [step.get("run") for step in job("ucm.yml")["steps"]]
+    assert certify in "\n".join(step.get("run", "") for step in job("ucm.yml")["steps"]).splitlines()
     reports = {}
     for name, adapter in (("good", GOOD), ("worse", WORSE)):
         push(
             adapter, ["ucm-cts run my_package.my_adapter:MyAdapter --explore 0s --out ucm-report || test $? -eq 1"], {}
         )
         reports[name] = shutil.move("ucm-report", here / name)
-    main, branch = ({"CI_COMMIT_BRANCH": name, "CI_DEFAULT_BRANCH": "main"} for name in ("main", "topic"))
+    main, branch = (rule["variables"] for rule in job("gitlab-ci.yml")["rules"])
+    assert job("gitlab-ci.yml")["cache"]["policy"] == "$KEEP"
     good, worse = ("\n".join(lines).replace(certify, f"cp -r {reports[name]} ucm-report") for name in ("good", "worse"))
-    check(push(GOOD, [good], main), push(WORSE, [worse], branch), pip)
+    first = push(GOOD, [good], main)
+    check(first, push(WORSE, [worse], branch), pip, ["1.0"])
+    check(first, push(WORSE, [worse], main), pip, ["1.0", "1.1"])
+    assert '"version":"1.0"' in Path("ucm-kept/baseline/report.json").read_text().replace(" ", ""), "the good one stays"
 
 
 def test_what_the_jobs_name_is_what_the_commands_write() -> None:
     github, gitlab = job("ucm.yml"), job("gitlab-ci.yml")
     text = " ".join(step.get("run", "") for step in github["steps"])
     kept = [step["with"]["path"] for step in github["steps"] if "path" in step.get("with", {})]
-    assert kept == ["ucm-kept", "ucm-report"]
+    assert kept == ["ucm-kept", "ucm-kept", "ucm-report"]
     assert gitlab["cache"]["paths"] + gitlab["artifacts"]["paths"] == ["ucm-kept/", "ucm-report/"]
     for place in (*kept, *gitlab["artifacts"]["reports"]["junit"]):
         assert place in text

@@ -162,7 +162,7 @@ def test_tables_name_existing_things() -> None:
         module = importlib.import_module(f"ucm_cts.{path.replace('/', '.')}")
         assert [name for name in re.findall(r"\w+", names) if not hasattr(module, name)] == []
     assert set(column("docs/verdicts.md", "`(.+?)`")) == {*get_args(Verdict), *get_args(Isolation)}
-    (short,) = column("README.md", r"(.+), \.\.\. \| takes a bundled adapter.*")
+    (short,) = column("docs/commands.md", r"(.+), \.\.\. \| takes a bundled adapter.*")
     assert set(re.findall(r"`(.+?)`", short)) <= entry_points(group="ucm_cts.adapters").names
 
 
@@ -178,18 +178,27 @@ def test_pytest_command_is_the_one_that_test_pytest_plugin_runs() -> None:
     assert commands("pytest --pyargs") == ["pytest --pyargs ucm_cts.suite --iut ADAPTER"]
 
 
-def test_options_are_documented_exactly() -> None:
-    pages = [
-        "README.md",
-        *(
-            f"docs/{name}.md"
-            for name in ("detection", "explore", "certificates", "publication")
-            if (ROOT / f"docs/{name}.md").is_file()
-        ),
-    ]
-    shown = {option.split()[0] for page in pages for option in column(page, "`(-.+?)`")}
-    there = {o for c in cli.commands.values() for p in c.params if isinstance(p, click.Option) for o in p.opts}
-    assert shown == there
+def test_commands_page_is_that_of_the_commands() -> None:
+    printed = shell(f"{shlex.quote(sys.executable)} {ROOT}/docs/commands.py")
+    assert printed.startswith("## Commands\n")
+    assert text_of("docs/commands.md").partition("## Commands\n")[2] == printed.removeprefix("## Commands\n")
+    assert {o for command in cli.commands.values() for p in command.params for o in options_of(p)} == {
+        span.split()[0] for span in column("docs/commands.md", "`(-.+?)`")
+    }
+
+
+def options_of(parameter: click.Parameter) -> list[str]:
+    return parameter.opts if isinstance(parameter, click.Option) else []
+
+
+@pytest.mark.parametrize("name", ["", *cli.commands])
+def test_help_is_complete(name: str) -> None:
+    command = cli.commands[name] if name else cli
+    context = click.Context(command)
+    assert not name or not command.get_short_help_str(62).endswith("..."), "the list of commands would cut it off"
+    for option in (p for p in command.params if isinstance(p, click.Option)):
+        assert option.help, option.opts
+    assert "harness" not in command.get_help(context).lower(), "a word of those who develop UCM-CTS"
 
 
 @pytest.mark.native

@@ -104,11 +104,11 @@ IMPORTS: dict[str, tuple[str, str]] = {
         f"'evil:Evil' writes to {CONTROL}",
     ),
     "plays the control channel": (
-        "os.write(control(), b'ready \"x\"\\nforked 1\\n')",
+        "os.write(control(), b'ready\\nforked 1\\n')",
         f"'evil:Evil' gives no hosts: the adapter writes to {CONTROL}",
     ),
     "plays the end of a host": (
-        "os.write(control(), b'ready \"x\"\\nended 1 0 nothing\\n')",
+        "os.write(control(), b'ready\\nended 1 0 nothing\\n')",
         f"'evil:Evil' gives no hosts: the adapter writes to {CONTROL}",
     ),
     "floods the control channel": (
@@ -272,6 +272,20 @@ def test_name_of_port_elements_is_made_of_two_plain_parts(spelling: str) -> None
         WrongUse, match=r"must hold \{port\} and \{element\} once each, without a format, in at most 100"
     ):
         Disguise(1, spelling)
+
+
+@pytest.mark.parametrize("lie", ["Mine.__module__ = 'abc'", "__file__ = '/etc/hostname'"])
+def test_an_adapter_cannot_name_the_file_of_another(here: Path, monkeypatch: pytest.MonkeyPatch, lie: str) -> None:
+    """Certificates have the digest of the file: once a product was certified with that of a module of Python."""
+    (here / "theirs").mkdir()
+    (here / "theirs" / "mine.py").write_text(
+        "from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter\n"
+        f"class Mine(ReferenceAdapter):\n    product = 'Mine'\n{lie}\n"
+    )
+    monkeypatch.chdir(here)
+    with Driver(locate("theirs.mine:Mine"), seed=1) as driver:
+        assert driver.identity.product == "Mine"
+        assert driver.adapter_file == str(here / "theirs" / "mine.py")
 
 
 def test_adapter_of_the_same_name_is_named(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -59,6 +59,7 @@ class FakeJudged:
 
     report: ReportEntry
     problems: tuple[Problem, ...] = ()
+    unshown: tuple[str, ...] = ()
 
 
 def fake_judge(contents: Contents, statement: Statement, is_delta: bool) -> FakeJudged:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import faulthandler
+import json
 import os
 import select
 import signal
@@ -24,9 +25,12 @@ from typing import NoReturn
 from urllib.parse import urlsplit
 
 from ucm_cts.adapters.contract.messages import Traced, Welcome, encode, from_host_decoder, refusal
-from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, file_of, load
+from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, load
 from ucm_cts.adapters.sdk.python.seal import Seal, replaces
 from ucm_cts.adapters.sdk.python.template import Template, adopt_orphans, refuse
+
+ASKED_FOR_MODULES = b'{"type":"modules"}\n'
+"""The question which modules a host has loaded, outside the protocol: it answers with their files, a list of JSON. Others refuse it."""
 
 _GRACE = 30.0  # seconds a host may continue after its connection has ended
 
@@ -42,7 +46,7 @@ def main() -> None:
     control = socket.socket(fileno=options.control) if options.control is not None else None
     sys.breakpointhook = _say_breakpoint
     # found before the adapter is loaded, which could replace them
-    become_host, listen, make_template, find_file, look = serve, _listen, Template, file_of, _seal().broken
+    become_host, listen, make_template, look = serve, _listen, Template, _seal().broken
     if control:
         adopt_orphans()
     try:
@@ -52,9 +56,7 @@ def main() -> None:
             refuse(control, str(error))
         parser.exit(2, f"{parser.prog}: {error}\n")
     if control:
-        make_template(
-            control, lambda source, target: become_host(answer, source, target, look), find_file(options.adapter)
-        ).serve()
+        make_template(control, lambda source, target: become_host(answer, source, target, look)).serve()
     elif options.listen:
         try:
             listener = _open_listener(options.listen)
@@ -91,6 +93,9 @@ def serve(answer: Answer, source: int, target: int, look: Callable[[], str | Non
             for line in lines:
                 if line == b"\n":
                     continue
+                if line == ASKED_FOR_MODULES:
+                    write(json.dumps(_files_of_modules()).encode() + b"\n")
+                    continue
                 reply = answer(line, write)
                 replaced = look()
                 if replaced is not None and not isinstance(from_host_decoder().decode(reply), Welcome):
@@ -103,6 +108,12 @@ def serve(answer: Answer, source: int, target: int, look: Callable[[], str | Non
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(0)
+
+
+def _files_of_modules() -> list[str]:
+    """The files of all modules that this process has loaded, however it did."""
+    files = (getattr(module, "__file__", None) for module in list(sys.modules.values()))
+    return sorted({os.path.abspath(file) for file in files if isinstance(file, str)})
 
 
 def _keep_streams_apart() -> None:

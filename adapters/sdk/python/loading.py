@@ -49,16 +49,6 @@ def load(spec: str) -> Answer:
     return _answer_of(module)
 
 
-def file_of(spec: str) -> str:
-    """The file of the adapter ``spec``, which has been loaded; empty if it has none."""
-    if _is_path(spec):
-        return str(Path(spec).resolve())
-    module_name, _, class_name = spec.partition(":")
-    module = sys.modules.get(module_name)
-    owner = sys.modules.get(getattr(getattr(module, class_name, None), "__module__", ""), module)
-    return str(getattr(owner, "__file__", None) or "")
-
-
 def current_name(spec: str) -> str:
     """``spec``, with the present name of its package. Warns of a deprecated one."""
     for old, new in _MOVED.items():

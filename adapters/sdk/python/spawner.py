@@ -34,7 +34,7 @@ def main() -> None:
             print(f"{path} cannot be run: {error.strerror}", file=sys.stderr, flush=True)
             os._exit(127)
 
-    Template(socket.socket(fileno=options.control), become_host, path).serve()
+    Template(socket.socket(fileno=options.control), become_host).serve()
 
 
 if __name__ == "__main__":

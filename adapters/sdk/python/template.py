@@ -1,8 +1,8 @@
 """Template: a process that has loaded the adapter and forks a new host on request.
 
 Control protocol, one line each over a Unix socket. To the template: ``fork`` together with three descriptors (the
-host's input, output and standard error), and ``kill PID SIGNAL``. From it: ``ready`` once and a JSON string, the file that
-it has loaded, or ``failed`` and a JSON string saying why; ``forked PID``; and ``ended PID STATUS STRAYS`` (as of
+host's input, output and standard error), and ``kill PID SIGNAL``. From it: ``ready`` once, or ``failed`` and
+a JSON string saying why; ``forked PID``; and ``ended PID STATUS STRAYS`` (as of
 ``os.waitstatus_to_exitcode``: negative for a signal; a JSON list with the command line of each process that the host left behind).
 
 Each host leads a process group. What a host leaves behind is killed when it ends, also in other groups and sessions: on Linux
@@ -57,11 +57,9 @@ def adopt_orphans() -> None:
 class Template:
     """Serves ``control`` until the harness closes it. ``become_host`` runs in each forked process and never returns."""
 
-    def __init__(self, control: socket.socket, become_host: BecomeHost, file: str = "") -> None:
-        """``file`` is the one that was loaded."""
+    def __init__(self, control: socket.socket, become_host: BecomeHost) -> None:
         self._control = control
         self._become_host = become_host
-        self._file = file
         self._hosts: set[int] = set()
         self._helpers: frozenset[int] = frozenset()
         self._process_control = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
@@ -82,7 +80,7 @@ class Template:
             selector.register(wake, selectors.EVENT_READ)
             try:
                 selector.register(self._control, selectors.EVENT_READ)
-                self._control.sendall(b"ready %s\n" % json.dumps(self._file).encode())
+                self._control.sendall(b"ready\n")
                 while True:
                     ready = {key.fileobj for key, _ in selector.select()}
                     if wake in ready:

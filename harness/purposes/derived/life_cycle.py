@@ -68,10 +68,10 @@ def _explore(table: LifeCycleTable, configuration: Configuration) -> Iterator[tu
     numbers: dict[str, int] = {}
     kept: Counter[tuple[str, tuple[bool, ...]]] = Counter()
     seen: set[object] = set()
-    queue: deque[tuple[ContainerCall, ...]] = deque([()])
+    queue: deque[tuple[tuple[ContainerCall, ...], Prediction]] = deque()
+    queue.append(((), Prediction(table, configuration.components)))
     while queue:
-        path = queue.popleft()
-        now = _replay(table, configuration, path)
+        path, now = queue.popleft()
         if now.runtime.destroyed:
             continue
         for step in configuration.probes + configuration.moves:
@@ -88,11 +88,12 @@ def _explore(table: LifeCycleTable, configuration: Configuration) -> Iterator[tu
         for step in configuration.moves:
             if not _bound(now, step) or _rebinds(now, step):
                 continue
-            then = _replay(table, configuration, (*path, step))
+            then = now.fork()
+            then.perform(step)
             key = _key(then)
             if key not in seen:
                 seen.add(key)
-                queue.append((*path, step))
+                queue.append(((*path, step), then))
 
 
 def _kind(now: Prediction, member: Member | None) -> tuple[bool, ...]:
@@ -100,13 +101,6 @@ def _kind(now: Prediction, member: Member | None) -> tuple[bool, ...]:
     if member is None:
         return ()
     return bool(member.live_connections()), any(now.runtime.clients_of([member])), member.startups > 0
-
-
-def _replay(table: LifeCycleTable, configuration: Configuration, path: tuple[ContainerCall, ...]) -> Prediction:
-    prediction = Prediction(table, configuration.components)
-    for step in path:
-        prediction.perform(step)
-    return prediction
 
 
 def _afterwards(step: ContainerCall) -> tuple[Step, ...]:

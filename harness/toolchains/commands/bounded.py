@@ -9,16 +9,19 @@ import signal
 import subprocess
 import tempfile
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
 from ucm_cts.harness.hosting.process_tree import resident
-from ucm_cts.harness.hosting.sandbox import Started, start
-from ucm_cts.harness.hosting.view import View
+from ucm_cts.harness.hosting.sandbox import Started, start, why_none
+from ucm_cts.harness.hosting.view import View, view_of
 from ucm_cts.harness.results.values import Incident
+
+NO_END = "no end after"
+"""How the problem begins of what ran longer than it may."""
 
 _SAMPLE_SECONDS = 0.05
 _FILES_SAMPLE_SECONDS = 0.2
@@ -66,6 +69,20 @@ class Ended:
     def problem(self) -> str:
         """The limit that it exceeded, or why it could not be run; empty if it ended by itself."""
         return self.incident.detail if self.incident else ""
+
+
+def view_for(
+    needed: Iterable[str | Path], mebibytes: int, *, sandbox: bool = True, network: bool = True
+) -> View | None:
+    """What a program sees that reads the vendor's files: ``needed``, and the system; None for no sandbox, if none is to be had.
+
+    ``mebibytes``: how much it may write in temporary folders. ``sandbox``: whether it is to have one. ``network``: whether there is one
+    in the sandbox.
+    """
+    if not sandbox or why_none():
+        return None
+    view = view_of(needed, mebibytes=mebibytes)
+    return view if network else view.without_network()
 
 
 def run(
@@ -167,7 +184,7 @@ class _Supervisor:
             if self._total > self._flood:
                 return Incident("flood", f"more than {self._flood // _MIB} MiB of output")
             if time.monotonic() > self._deadline:
-                return Incident("hang", f"no end after {self._limits.seconds:g} s")
+                return Incident("hang", f"{NO_END} {self._limits.seconds:g} s")
             if (excess := self._excess_of_memory()) is not None:
                 return excess
             if time.monotonic() > self._sample_files_at and (excess := self.excess_of_files()) is not None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 from typing import Any, NamedTuple
 
-import xmlschema
 from lxml import etree
 
 from ucm_cts.harness.catalogue.requirements import SUITE
@@ -24,12 +23,6 @@ class Violation(NamedTuple):
 def schema() -> etree.XMLSchema:
     """The schema as libxml2 understands it, which is fast. Validating with it is not safe in several threads."""
     return etree.XMLSchema(etree.parse(SCHEMA))
-
-
-@functools.cache
-def second_opinion() -> xmlschema.XMLSchema10:
-    """The same schema as xmlschema understands it, which is slow, and says more."""
-    return xmlschema.XMLSchema10(str(SCHEMA))
 
 
 def parser() -> etree.XMLParser:

@@ -12,8 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.hosting.sandbox import why_none
-from ucm_cts.harness.hosting.view import view_of
 from ucm_cts.harness.toolchains.commands import bounded
 from ucm_cts.harness.toolchains.commands.bounded import Ended
 from ucm_cts.harness.toolchains.cpp.disguise import TAG, Disguise
@@ -114,13 +112,8 @@ def run(words: Sequence[str], folder: Path, compiler: Compiler, needed: Sequence
     limits = [str(compiler.memory * 1024), str(_OUTPUT * 16 // 512)]
     shell = ["/bin/sh", "-c", _LIMITED, *limits, *words]
     environment = {**os.environ, "LC_ALL": "C.UTF-8"}
-    view = (
-        view_of([*_paths_in(words), *needed], mebibytes=compiler.memory)
-        if compiler.sandbox and not why_none()
-        else None
-    )
-    if view is not None and not compiler.network:
-        view = view.without_network()
+    seen: list[str | Path] = [*_paths_in(words), *needed]
+    view = bounded.view_for(seen, compiler.memory, sandbox=compiler.sandbox, network=compiler.network)
     ended = bounded.run(
         shell,
         folder,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import fnmatch
-import subprocess
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from ucm_cts.harness.toolchains.cpp.compiling import (
     Compiled,
     Compiler,
     Headers,
+    NoCompiler,
     compile_text,
     read_errors,
     run,
@@ -49,7 +49,7 @@ def linked(headers: Headers, standard: str, compiler: Compiler, folder: Path) ->
             left_out.append(f"{source.relative_to(headers.folder)} does not compile ({why}) and was not linked")
         else:
             objects.append(str(made))
-    return Linked((*_archived(objects, folder), *layout.libraries), tuple(left_out))
+    return Linked((*_archived(objects, folder, compiler), *layout.libraries), tuple(left_out))
 
 
 def matches(name: str, pattern: str) -> bool:
@@ -86,13 +86,13 @@ def _compiled(source: Path, made: Path, headers: Headers, standard: str, compile
     return ended.problem or first or f"status {ended.status}"
 
 
-def _archived(objects: list[str], folder: Path) -> list[str]:
-    """An archive of ``objects``; they themselves where none can be made."""
+def _archived(objects: list[str], folder: Path, compiler: Compiler) -> list[str]:
+    """An archive of ``objects``, made where ``compiler`` runs; they themselves where none can be made."""
     archive = str(folder / "libsources.a")
     if not objects:
         return []
     try:
-        subprocess.run(["ar", "rcs", archive, *objects], check=True, capture_output=True, stdin=subprocess.DEVNULL)
-    except (OSError, subprocess.CalledProcessError):
-        return objects
-    return [archive]
+        is_made = run(["ar", "rcs", archive, *objects], folder, compiler).status == 0
+    except NoCompiler:
+        is_made = False
+    return [archive] if is_made else objects

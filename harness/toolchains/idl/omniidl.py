@@ -7,13 +7,11 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
-import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal
 
+from ucm_cts.harness.toolchains.commands import bounded
 from ucm_cts.harness.toolchains.idl.language.preprocessing import Preprocessed
 from ucm_cts.harness.toolchains.idl.language.problems import Problem
 from ucm_cts.harness.toolchains.idl.language.reading import read_files
@@ -21,8 +19,15 @@ from ucm_cts.harness.toolchains.idl.language.scopes import build, every
 from ucm_cts.harness.toolchains.idl.language.showing import type_of
 from ucm_cts.reference_models.mapping.idl import declarations as idl
 
-PATIENCE = 60.0
-"""Seconds until omniidl is given up."""
+
+@dataclass(frozen=True)
+class _Limits:
+    seconds: float = 60.0
+    memory: int = 1024
+
+
+LIMITS = _Limits()
+"""What omniidl may take: seconds and MiB."""
 
 NEW_TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64")
 
@@ -50,8 +55,11 @@ def missing() -> str:
     return "" if shutil.which("omniidl") else "omniidl is not installed; Debian's package is omniidl"
 
 
-def opinion(files: Mapping[str, str]) -> Opinion:
-    """What omniidl thinks of ``files`` (name to text), taken together in the order of their includes."""
+def opinion(files: Mapping[str, str], sandbox: bool = True, network: bool = True) -> Opinion:
+    """What omniidl thinks of ``files`` (name to text), taken together in the order of their includes.
+
+    ``sandbox``: it runs in one where there is one, with a ``network`` or without.
+    """
     program = shutil.which("omniidl")
     if program is None:
         return Opinion("none", reason=missing())
@@ -61,26 +69,18 @@ def opinion(files: Mapping[str, str]) -> Opinion:
     beyond = next(_beyond(read.declarations), "")
     if beyond or read.missing:
         return Opinion("none", reason=beyond or f"{read.missing[0]} is not among the files")
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "all.idl"
-        path.write_text("\n".join(joined(files, read.left)) + "\n")
-        try:
-            ran = subprocess.run(
-                [program, "-N", "-nf", "-nc", "all.idl"],
-                check=False,
-                cwd=folder,
-                capture_output=True,
-                text=True,
-                timeout=PATIENCE,
-            )
-        except subprocess.TimeoutExpired:
-            return Opinion("none", reason=f"omniidl did not end within {PATIENCE:g} s")
-    problems = tuple(_problems(ran.stderr + ran.stdout, list(files)))
-    if ran.returncode == 0:
+    with bounded.own_folder() as folder:
+        (folder / "all.idl").write_text("\n".join(joined(files, read.left)) + "\n")
+        view = bounded.view_for([program], LIMITS.memory, sandbox=sandbox, network=network)
+        ran = bounded.run([program, "-N", "-nf", "-nc", "all.idl"], folder, LIMITS, apart=True, view=view)
+    if ran.problem:
+        return Opinion("none", reason=f"omniidl came to no end: {ran.problem}")
+    if ran.status == 0:
         return Opinion("agreed")
+    problems = _problems(ran.errors + ran.output, list(files))
     held = tuple(problem for problem in problems if not TOLERATED.match(problem.text))
     return (
-        Opinion("refused", held) if held else Opinion("none", reason=f"not held against it: {ran.stderr.strip()[:300]}")
+        Opinion("refused", held) if held else Opinion("none", reason=f"not held against it: {ran.errors.strip()[:300]}")
     )
 
 

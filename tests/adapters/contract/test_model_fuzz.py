@@ -9,13 +9,14 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from second_schema import second_opinion
 
 from ucm_cts.adapters.contract.metamodel.common import walk
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
 from ucm_cts.harness.toolchains.corpus import strategies
 from ucm_cts.harness.toolchains.corpus.fuzzing import PRINTED, PROPERTIES
-from ucm_cts.harness.toolchains.corpus.schema import second_opinion, violations
+from ucm_cts.harness.toolchains.corpus.schema import violations
 
 quick = settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 

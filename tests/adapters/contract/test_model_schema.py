@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from second_schema import second_opinion
 
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.contracts import ContractModule
@@ -16,7 +17,7 @@ from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.models.core_models import CORE
 from ucm_cts.harness.toolchains.corpus.printed_schema import PRINTED, printed_schema
-from ucm_cts.harness.toolchains.corpus.schema import SCHEMA, second_opinion, violations
+from ucm_cts.harness.toolchains.corpus.schema import SCHEMA, violations
 from ucm_cts.harness.toolchains.corpus.selection import questions
 
 MAPPING = SUITE / "models" / "mapping"

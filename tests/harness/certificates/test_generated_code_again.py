@@ -8,8 +8,11 @@ import msgspec
 import pytest
 from recorded_toolchains import Recorded, recorded, without_times
 
+from ucm_cts.harness.certificates.judging import entry_of, unfinished_compilations
 from ucm_cts.harness.certificates.toolchain_rejudging import Judged, judge_toolchain_again, of_verifier
 from ucm_cts.harness.hosting.sandbox import why_none
+from ucm_cts.harness.results.values import Incident
+from ucm_cts.harness.toolchains.commands import bounded
 from ucm_cts.harness.toolchains.commands.description import Command
 from ucm_cts.harness.toolchains.cpp.comparing import _compared
 from ucm_cts.harness.toolchains.recorded_form import decoded, encoded
@@ -115,6 +118,22 @@ def test_generated_programs_reach_nothing(tmp_path: Path, monkeypatch: pytest.Mo
     file = tmp_path / "owned"
     again(run, hostile(run.record, file))
     assert not file.exists()
-    monkeypatch.setattr("ucm_cts.harness.toolchains.cpp.compiling.why_none", lambda: "not here")
+    monkeypatch.setattr("ucm_cts.harness.toolchains.commands.bounded.why_none", lambda: "not here")
     again(run, hostile(run.record, file))
     assert file.exists(), "the attack is one, without a sandbox"
+
+
+def test_a_compiler_that_comes_to_no_end_on_a_busy_machine_accuses_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
+    def hangs(*_: object, **__: object) -> bounded.Ended:
+        return bounded.Ended(None, "", "", Incident("hang", f"{bounded.NO_END} 60 s"))
+
+    run = recorded("cpp11", "policy_example")
+    whole = entry_of(again(run).report)
+    monkeypatch.setattr(bounded, "run", hangs)
+    slow = entry_of(again(run).report)
+    _compared.cache_clear()
+    assert not list(unfinished_compilations(whole, whole))
+    for said, shown, when in ((whole, slow, "here"), (slow, whole, "when it was made")):
+        (problem,) = unfinished_compilations(said, shown)
+        assert problem.startswith(f"not judged: {when}, policy_example: ")
+        assert problem.endswith("try again when the machine is less busy")

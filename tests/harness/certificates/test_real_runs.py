@@ -233,8 +233,12 @@ def test_commit_challenge_certify(workshop: Workshop) -> None:
     commitment, challenge = folder / "commitment.json", folder / "challenge.json"
     assert ucm_cts("commit", "reference-py", "--key", key, "--out", commitment).status == 0
     for number in (1, 2):
-        answer = ucm_cts("challenge", commitment, "--key", auditor, "--out", folder / f"challenge-{number}.json")
+        trust = ("--trust", folder / "keys")
+        answer = ucm_cts(
+            "challenge", commitment, "--key", auditor, *trust, "--out", folder / f"challenge-{number}.json"
+        )
         assert f"challenge number {number} " in answer.out
+        assert "the commitment is signed by acme" in answer.out
     (folder / "challenge-2.json").rename(challenge)
     assert workshop.certify("reference-py", "challenged.ucmcert", "--challenge", challenge).status == 0
     told = workshop.verify(folder / "challenged.ucmcert", "--auditor", folder / "auditors").out
@@ -249,4 +253,7 @@ def test_commit_challenge_certify(workshop: Workshop) -> None:
     assert "--auditor KEYS" in plain.out
     other = workshop.certify("reference-py", "x.ucmcert", "--challenge", challenge, "--artifact", folder / "libacme.so")
     assert other.status == 2
-    assert "committed to another subjects" in other.err
+    assert (
+        "'artifact/libacme.so' takes part in this run, and the vendor did not commit to it; leave it out" in other.err
+    )
+    assert str(challenge) in other.err

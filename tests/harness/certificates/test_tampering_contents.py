@@ -387,6 +387,10 @@ VENDORS: dict[str, tuple[Callable[[], bytes], str, str]] = {
     "signed in the future": (lambda: _vendor(_claimed(issued="2199-01-01T00:00:00+00:00")), "time", "signed in the future"),
     "signed at no time": (lambda: _vendor(_claimed(issued="yesterday")), "time", "'yesterday' is no moment"),
     "signed before it ran": (lambda: _vendor(_claimed(issued="2026-10-01T10:00:00+00:00")), "time", "after the certificate was signed"),
+    "signed before the run ended": (lambda: _vendor(lambda f: f.report(seconds=90 * 86_400.0)), "time", "so that it was signed before its end"),
+    "run that took less than nothing": (lambda: _vendor(lambda f: f.report(seconds=-1.0)), "time", "less than nothing"),
+    "clause that took less than nothing": (lambda: _vendor(lambda f: f.report(seconds_by_clause={"10": -1.0})), "time", "less than nothing"),
+    "requirement that took for ever": (lambda: _vendor(lambda f: f.requirement(FIRST, seconds=1e300)), "time", "more than a year"),
     "ran at no time": (lambda: _vendor(lambda f: f.report(started="noon")), "time", "'noon' is no moment at which the run began"),
     "challenge in a self-declared one": (lambda: _vendor(_claimed(assurance="self-declared"), "challenged"), "challenge", "and says that it is self-declared"),
 }  # fmt: skip

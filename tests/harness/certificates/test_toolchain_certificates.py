@@ -14,6 +14,8 @@ from workshop import Workshop
 
 from ucm_cts.adapters.reference import toolchain
 from ucm_cts.harness.certificates import archive
+from ucm_cts.harness.certificates.challenges import answered
+from ucm_cts.harness.certificates.verified import decoded as verified_of
 from ucm_cts.harness.toolchains.recorded_form import decoded, encoded
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("certificates of tool chains"), pytest.mark.usefixtures("here")]
@@ -76,3 +78,29 @@ def test_code_that_nobody_could_judge_is_not_certified(here: Path, workshop: Wor
     assert outcome.status == 2
     assert "nobody could verify the certificate: it needs '" in outcome.err
     assert not (here / "ours.ucmcert").exists()
+
+
+def test_commit_challenge_certify(workshop: Workshop) -> None:
+    folder = workshop.folder
+    commitment, challenge, out = folder / "commitment.json", folder / "challenge.json", folder / "challenged.ucmcert"
+    profile = ("--toolchain", DESCRIPTION, "--profile", "idl")
+    assert ucm_cts("commit", *profile, "--key", folder / "acme.pem", "--out", commitment).status == 0
+    assert ucm_cts("challenge", commitment, "--key", folder / "auditor.pem", "--out", challenge).status == 0
+    other = certify(workshop, out.name, *profile, "--challenge", challenge, "--artifact", commitment)
+    assert other.status == 2
+    assert "the vendor did not commit to it" in other.err
+    assert certify(workshop, out.name, *profile, "--challenge", challenge, "--no-sandbox").status == 0
+    told = workshop.verify(out, "--auditor", folder / "auditors", "--json")
+    assert told.status == 0
+    verified = verified_of(told.out.encode())
+    assert (verified.assurance, verified.challenges, verified.isolation) == ("challenged", 1, "process")
+    assert verified.report is not None
+    assert verified.report.seed == answered(challenge.read_bytes()).seed
+
+
+def test_options_of_frameworks_are_refused(workshop: Workshop) -> None:
+    for command, option, value in (("certify", "--memory", "99"), ("commit", "--systematic", "1")):
+        key = ("--key", workshop.folder / "acme.pem", "--out", workshop.folder / "none")
+        outcome = ucm_cts(command, "--toolchain", DESCRIPTION, *key, option, value)
+        assert outcome.status == 2
+        assert f"{option} is for frameworks behind adapters" in outcome.err

@@ -260,7 +260,7 @@ def test_no_program_reads_what_a_stranger_generated(monkeypatch: pytest.MonkeyPa
         raise AssertionError("it was run")
 
     run = recorded("idl", "data_types")
-    monkeypatch.setattr("ucm_cts.harness.toolchains.idl.omniidl.subprocess.run", never)
+    monkeypatch.setattr("ucm_cts.harness.toolchains.commands.bounded.run", never)
     judged = again(run, is_vouched_for=False)
     assert judged.problems == (
         "not judged: what was generated of 1 models was read by no compiler, because the signature is not trusted",

@@ -56,7 +56,7 @@ def test_wrong_uses_are_said(tmp_path: Path) -> None:
     Workshop(tmp_path)
     certify = ("certify", "--key", tmp_path / "acme.pem", "--out", tmp_path / "x.ucmcert", "--report", tmp_path / "r")
     for arguments, text in (
-        (("reference-py", "--toolchain", DESCRIPTION), "leave out ADAPTER"),
+        (("reference-py", "--toolchain", DESCRIPTION), "leave one out"),
         (("--toolchain", DESCRIPTION, "--profile", "core"), "is of frameworks"),
         (("reference-py", "--profile", "pim"), "is of tool chains"),
     ):

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from types import SimpleNamespace
 
 import msgspec
 import pytest
 
 from ucm_cts.adapters.contract.scenario import AddComponent, CreateContainer, Scenario
-from ucm_cts.harness.execution import shrink
+from ucm_cts.harness.execution import shortening, shrink
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver
+from ucm_cts.harness.execution.driving import Answer
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.scripts import Script, problems, to_scenario
@@ -85,3 +87,33 @@ def test_the_boldest_guess_that_fails_is_taken_and_then_improved() -> None:
     short = shrink.shortest(LONGEST, adds_two)
     assert [type(step) for step in short.steps] == [AddComponent, AddComponent]
     assert shrink.shortest(LONGEST, lambda candidates: None) == LONGEST
+
+
+def test_the_search_for_shorter_scenarios_ends_in_time_and_each_failure_has_its_share(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    clock = 0.0
+    begun: dict[str, list[float]] = {}
+
+    class Slow(Driver):
+        """Each scenario of a search takes three seconds."""
+
+        def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:
+            nonlocal clock
+            for answer in super().run(cases, insist):
+                if answer.name.endswith("shortened"):
+                    begun.setdefault(answer.name, []).append(clock)
+                    clock += 3
+                yield answer
+
+    monkeypatch.setattr(shortening, "time", SimpleNamespace(monotonic=lambda: clock))
+    with Slow(locate("subjects:stops_in_startup_order"), seed=4) as driver:
+        campaign = Campaign(driver, "container")
+        purposes = select(load_purposes("container"), "stop-reverses-start or manager-cascade or restart")
+        assert sum(1 for _ in campaign.check(purposes)) > 1
+        causes = list(campaign.shorten())
+    assert causes
+    for times in begun.values():
+        assert times[-1] - times[0] <= shortening.SECONDS_FOR_SHORTER
+    assert len(begun) == len(causes)
+    assert clock <= shortening.SECONDS_FOR_ALL_SHORTER + 3 * len(causes)

@@ -243,7 +243,8 @@ def test_other_wrong_use_is_refused_in_one_line(here: Path) -> None:
     (here / "empty").mkdir()
     assert "there is no report.json in 'empty'" in refused(ucm_cts("history", "empty"))
     reports = save(here / "reports", run(1))
-    assert "cannot be written" in refused(ucm_cts("history", reports, "--database", "no/such/folder/file"))
+    missing = refused(ucm_cts("history", reports, "--database", "no/such/folder/file"))
+    assert "there is no folder 'no/such/folder' for the history" in missing
     assert not (here / "ucm-cts-history.duckdb").exists()
 
 

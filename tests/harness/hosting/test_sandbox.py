@@ -114,6 +114,13 @@ def test_nothing_but_scratch_can_be_written_and_nothing_of_that_stays(here: Path
     assert not Path("/tmp/new").exists()
 
 
+@needs_sandbox
+def test_what_is_of_the_whole_system_cannot_be_written(here: Path) -> None:
+    """A root without capabilities may write to ``/proc/sys``, which names a program that the system runs when a process crashes."""
+    printed = inside(here, "find /proc /sys -type f -not -path '/proc/[0-9]*' -not -path '/proc/pressure/*' -writable")
+    assert [line for line in printed.splitlines() if line.startswith("/")] == []
+
+
 def test_secrets_in_the_environment_are_left_out() -> None:
     given = {"PATH": "/bin", "GITHUB_TOKEN": "x", "DB_PASSWORD": "x", "SSH_AUTH_SOCK": "/s", "JAVA_HOME": "/j"}
     assert clean_environment(given) == {"PATH": "/bin", "JAVA_HOME": "/j"}
@@ -220,20 +227,24 @@ def test_the_harness_cannot_be_killed(here: Path, monkeypatch: pytest.MonkeyPatc
 
 @needs_sandbox
 def test_reports_cannot_be_rewritten_during_or_after_a_run(here: Path) -> None:
-    daemon = (
-        "import os, time\n"
-        "for _ in range(100):\n"
-        "    time.sleep(0.1)\n"
-        "    for d, _, names in os.walk('.'):\n"
-        "        for n in names:\n"
-        "            if n == 'report.json': open(os.path.join(d, n), 'w').write('{}')\n"
+    rewrites = (
+        "import os\n"
+        "for d, _, names in os.walk('.'):\n"
+        "    for n in names:\n"
+        "        if n == 'report.json': open(os.path.join(d, n), 'w').write('{}')\n"
     )
-    each = f"subprocess.Popen([sys.executable, '-c', {daemon!r}], start_new_session=True)"
-    ucm_cts("run", adapter(here, each), "-k", REQUIREMENT, "--out", "out")
+    daemon = f"import time\nfor _ in range(100):\n    exec({rewrites!r})\n    time.sleep(0.1)\n"
+    at_once = f"subprocess.run([sys.executable, '-c', {rewrites!r}], check=False, stderr=subprocess.DEVNULL)"
+    later = f"subprocess.Popen([sys.executable, '-c', {daemon!r}], start_new_session=True)"
+    older = here / "older" / "report.json"
+    older.parent.mkdir()
+    older.write_text("of another run")
+    ucm_cts("run", adapter(here, later, at_once), "-k", REQUIREMENT, "--out", "out")
     before = (here / "out" / "report.json").read_bytes()
     time.sleep(1)
     assert (here / "out" / "report.json").read_bytes() == before
     assert json.loads(before)["product"]
+    assert older.read_text() == "of another run"
 
 
 @needs_sandbox
@@ -302,6 +313,11 @@ def test_processes_are_limited(here: Path) -> None:
     assert isinstance(answer.reply, Incident)
     assert answer.reply.kind == "memory"
     assert "20 allowed" in answer.reply.detail
+
+
+@needs_sandbox
+def test_processes_and_threads_are_limited_by_the_system(here: Path) -> None:
+    assert int(inside(here, "bash -c 'ulimit -u'")) <= sandbox.MOST_TASKS
 
 
 def _run() -> Run:

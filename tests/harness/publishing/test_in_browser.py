@@ -103,6 +103,19 @@ def test_the_list_of_requirements_fits_and_axe_core_objects_to_nothing(
     assert FAILS in chromium.run("return document.querySelector('#matrix').innerText")
 
 
+def test_no_verdict_reaches_out_of_its_cell_and_sizes_keep_their_order_on_paper(chromium: Browser, site: Path) -> None:
+    wide = """return [...document.querySelectorAll('.matrix td .badge')].filter((one) =>
+        one.getBoundingClientRect().right > one.closest('td').getBoundingClientRect().right).length"""
+    for width in (1440, 1024, 390):
+        chromium.open(site / "index.html", width)
+        assert chromium.run("return document.querySelectorAll('.matrix td .badge').length") > 6
+        assert chromium.run(wide) == 0, width
+    sizes = "return ['body', '.under'].map((one) => parseFloat(getComputedStyle(document.querySelector(one)).fontSize))"
+    chromium.open(site / "index.html", media="print")
+    body, under = chromium.run(sizes)
+    assert under < body, "what is said beside is smaller, on paper, too"
+
+
 def test_colours_and_styles_apply(chromium: Browser, site: Path) -> None:
     background = "return getComputedStyle(document.body).backgroundColor"
     colours = []

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import pytest
 from certified import VERIFIER, put, report, verified
 from command_line import Outcome, ucm_cts
 from files import ROOT
+from lxml import html
 
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.certificates.problems import Problem
 from ucm_cts.harness.cli import publish_command
 from ucm_cts.harness.cli.commands import cli
+from ucm_cts.harness.publishing.pages import site_files
 
 
 @pytest.fixture
@@ -48,6 +55,58 @@ def test_the_site_is_made_and_what_does_not_stand_is_told(folder: Path) -> None:
     assert len([path for path in first if path.parent.name == "certificates" and path.suffix == ".html"]) == 2
     assert publish(folder).status == 0
     assert content(folder) == first
+
+
+def test_the_archives_that_stand_are_in_the_site_and_the_page_says_how_to_verify_them(folder: Path) -> None:
+    publish(folder)
+    offered = {path.read_bytes() for path in (folder / "site" / "certificates").glob("*.ucmcert")}
+    assert offered == {(folder / "certificates" / f"{name}.ucmcert").read_bytes() for name in ("one", "two")}
+    for path in (folder / "site" / "certificates").glob("*.html"):
+        tree = html.document_fromstring(path.read_text())
+        (link,) = tree.xpath("//*[@id='verify']//a[@download]")
+        assert hashlib.sha256((path.parent / link.get("href")).read_bytes()).hexdigest() == path.stem
+        command = shlex.split(tree.xpath("string(//*[@id='verify']//*[@class='command'])").strip())
+        assert command == ["ucm-cts", "verify", link.get("download"), "--trust", "keys"]
+
+
+def test_an_archive_that_changes_while_the_site_is_made_stops_it(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def made(*arguments: Any) -> dict[str, bytes]:
+        put(folder / "certificates", "one", b"changed")
+        return site_files(*arguments)
+
+    monkeypatch.setattr(publish_command, "site_files", made)
+    done = publish(folder)
+    assert (done.status, done.err.count("\n")) == (2, 1)
+    assert "it was changed meanwhile" in done.err
+    assert not content(folder)
+
+
+def test_results_are_written_as_by_the_command_of_that_name(folder: Path) -> None:
+    asked = report(verdicts={"R-11.2.2.1-13": "fail"}, observed="It stopped first what it started first.")
+    put(folder / "certificates", "three", verified(asked))
+    put(folder / "certificates", "other rules", verified(report("Borealis"), judged_by="0.2.0"))
+    put(folder / "certificates", "newest", verified(report(), issued="2031-09-01T00:00:00+00:00"))
+    assert publish(folder, "--results", str(folder / "results")).status == 0
+    (folder / "report.json").write_bytes(msgspec.json.encode(report()))
+    (folder / "again" / "1.1").mkdir(parents=True)
+    (folder / "again" / "1.1" / "report.json").write_bytes(msgspec.json.encode(report(version="1.1")))
+    done = ucm_cts("results", folder / "report.json", folder / "again", "--out", folder / "expected")
+    assert done.status == 0
+    found, expected = (
+        {path.relative_to(place): path.read_bytes() for path in place.rglob("*") if path.is_file()}
+        for place in (folder / "results", folder / "expected")
+    )
+    assert found == expected
+    assert len(found) == 5
+
+
+def test_results_have_one_place_for_a_product_whoever_signed(folder: Path) -> None:
+    put(folder / "certificates", "forged", verified(signers=("mallory",)))
+    done = publish(folder, "--results", str(folder / "results"))
+    assert (done.status, done.err.count("\n")) == (2, 1)
+    assert "acme and mallory signed certificates of Acme UCM 1.0, profile container" in done.err
+    assert not content(folder)
+    assert not (folder / "results").exists()
 
 
 def test_what_a_site_no_longer_has_is_removed_and_nothing_else(folder: Path) -> None:
@@ -113,17 +172,38 @@ def test_a_folder_that_is_not_there_is_refused(tmp_path: Path) -> None:
 
 def test_tox_makes_certificates_of_all_bundled_products() -> None:
     (block,) = re.findall(r"(?ms)^\[testenv:certificates\]\n(.*?)^\[", (ROOT / "tox.ini").read_text())
-    made = []
+    made, archives = [], []
     for line in re.findall(r"(?m)^    -? ?(ucm-cts .+)$", block):
         name, *arguments = shlex.split(
             line.replace("{posargs}", "").replace("{/}", "/").replace("{tox_root}", str(ROOT))
         )[1:]
         context = cli.commands[name].make_context(name, arguments)
         if name == "certify":
-            made.append(
-                (Path(context.params["adapter"] or context.params["toolchain"]).stem, context.params["profile"])
-            )
+            product = Path(context.params["adapter"] or context.params["toolchain"]).stem
+            made.append((product, context.params["profile"]))
+            archives.append(context.params["out"].stem)
     assert made == [
         ("reference-cpp", "core"), ("reference-py", "core"), ("ipopo", "container"), ("gstreamer", "container"),
         ("julia-adapter", "container"), *(("toolchain", profile) for profile in TOOLCHAIN_PROFILES),
     ]  # fmt: skip
+    assert "ignore_errors = true" in block, "one that fails must not keep the others from being made"
+    last = block.strip().splitlines()[-1].replace("{tox_root}", "top").replace("{/}", "/")
+    assert shlex.split(last)[3:] == ["top/reports/certified/index.json", *archives]
+
+
+@pytest.mark.parametrize(("left_out", "status"), [("", 0), ("one", 1)])
+def test_tox_fails_if_a_certificate_is_missing(folder: Path, left_out: str, status: int) -> None:
+    (folder / "certificates" / f"{left_out}.ucmcert").unlink(missing_ok=True)
+    publish(folder)
+    (check,) = re.findall(r"(?m)^    (python -c .*index\.json) ", (ROOT / "tox.ini").read_text())
+    code = shlex.split(check)[2]
+    done = subprocess.run(
+        [sys.executable, "-c", code, folder / "site" / "index.json", "one", "two"],
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stderr.strip()) == (
+        status,
+        f"no certificate stands of {left_out}" if left_out else "",
+    )

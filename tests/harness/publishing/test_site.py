@@ -79,7 +79,7 @@ def test_every_link_leads_to_a_file_and_nothing_is_foreign() -> None:
             assert "://" not in link, f"{name}: {link}"
             path, _, anchor = link.partition("#")
             target = unquote(urljoin(name, path)) if path else name
-            assert target in SITE, f"{name}: {link}"
+            assert target in {*SITE, *(one.archive for one in (OLD, NEW, NEWER_RULES))}, f"{name}: {link}"
             assert not anchor or target != name or anchor in ids, f"{name}: {link}"
     assert not [name for name, content in SITE.items() if re.search(rb"@import|url\((?!#)", content)]
 
@@ -98,6 +98,13 @@ def test_the_matrix_has_versions_by_profile_and_the_fallen_are_listed_apart() ->
     ]
     assert "signature: no trusted key signed it" in text(index.get_element_by_id("fallen"))
     assert not [name for name in SITE if "cd" * 32 in name and not name.startswith("badges/")]
+
+
+def test_the_matrix_says_how_much_fails_and_how_much_was_not_asked() -> None:
+    one = certificate(verified(report(verdicts={FAILS: "fail", OTHER: "not applicable"})))
+    site = files(one)
+    assert "self-declared, 1 fail, 1 not applicable" in text(page("index.html", site))
+    assert "self-declared, 1 fail, 1 not applicable, 2031-02-03" in text(product_page(site))
 
 
 def test_a_product_shows_what_changed_between_its_certificates() -> None:
@@ -214,14 +221,17 @@ def test_the_feed_is_atom_with_ids_that_never_change() -> None:
 def test_the_index_fits_its_schema() -> None:
     index, schema = json.loads(SITE["index.json"]), json.loads(SITE["index.schema.json"])
     jsonschema.Draft202012Validator(schema).validate(index)
-    assert schema["$id"] == "urn:ucm-cts:schema:certificates:1"
-    assert (index["$schema"], index["schema_version"]) == ("index.schema.json", 1)
+    assert schema["$id"] == "urn:ucm-cts:schema:certificates:2"
+    assert (index["$schema"], index["schema_version"]) == ("index.schema.json", 2)
     assert [(c["product"], c["version"], c["verdict"]) for c in index["certificates"]] == [
         (c.product, c.version, c.verdict) for c in sorted((OLD, NEW, NEWER_RULES), key=lambda one: one.age)
     ]
     assert [f["problems"] for f in index["fallen"]] == [[{"check": "signature", "detail": "no trusted key signed it"}]]
     for one in index["certificates"]:
         assert {one["page"], one["earl"], one["badge"]} <= SITE.keys()
+    assert [c["download"] for c in index["certificates"]] == [
+        f"certificates/{c['digest']}.ucmcert" for c in index["certificates"]
+    ]
 
 
 HOSTILE_TEXTS = (
