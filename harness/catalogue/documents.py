@@ -21,8 +21,8 @@ LARGEST = 4 * 1024 * 1024
 """Bytes a document may have."""
 
 DEEPEST = 50
-_TOO_DEEP = f"nests deeper than {DEEPEST} levels"
 """Levels a document may nest."""
+_TOO_DEEP = f"nests deeper than {DEEPEST} levels"
 
 MOST_DOTS = 100
 """Dots a line of a TOML document may have."""
