@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
-from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.programming_model import Implementation, PortElementObject
 
 ContainerHandle = Any
@@ -93,20 +93,28 @@ class Adapter(ABC):
     def destroy(self, manager: ContainerHandle) -> None:
         """``destroy`` the runtime. Also called after a scenario that has not done so, with any outcome ignored."""
 
-    # What profile core needs beside; what an adapter does not override stays untested.
+    # What profiles core and extensions need beside; what an adapter does not override stays untested.
 
     def link(self, manager: ContainerHandle, connector: str, interface: Interface) -> LinkHandle:
         """Make a connection without ends (9.5.5.4) with a ``connector`` of 10.1, bound to ``interface``."""
         raise NotOffered
 
+    def link_with_types(self, manager: ContainerHandle, connector: str, types: Mapping[str, AnyType]) -> LinkHandle:
+        """Make a connection without ends with a ``connector`` of 10.4, bound to data ``types`` by template parameter."""
+        raise NotOffered
+
     def attach(
         self, link: LinkHandle, role: str, container: ContainerHandle, comp_instance: int, port_name: str
     ) -> None:
-        """Make the port element an end of ``link``, in the ``role`` of client, server, emitter or receiver."""
+        """Make the port element an end of ``link``, in the ``role`` of client, server, emitter or receiver.
+
+        If ``role`` is a connector port of 10.4, ``port_name`` is the name of a port: its elements are those of
+        ``platform_interfaces.CONNECTOR_PORTS``, spelled as ``port_element_name`` says.
+        """
         raise NotOffered
 
     def detach(self, link: LinkHandle, container: ContainerHandle, comp_instance: int, port_name: str) -> None:
-        """The port element is no longer an end of ``link``."""
+        """The port element, or the port, is no longer an end of ``link``."""
         raise NotOffered
 
     def break_link(self, link: LinkHandle, where: str) -> None:

@@ -174,6 +174,41 @@ def _flat(value: d.Datum, dimensions: int) -> Iterator[tuple[tuple[int, ...], d.
             yield from (((index, *place), element) for place, element in _flat(one, dimensions - 1))
 
 
+def a_value(of: d.AnyType) -> d.Datum:
+    """A value of the type, for results that mean nothing: mostly zeros, with as few elements as may be."""
+    match of:
+        case d.Integer() | d.Char():
+            return 0
+        case d.Float():
+            return "0" * (8 if of.kind == "FLOAT" else 16)
+        case d.Boolean():
+            return False
+        case d.String():
+            return ""
+        case d.Enumeration():
+            return next(iter(of.values))
+        case d.Structure():
+            return [a_value(field) for field in of.fields.values()]
+        case d.Union():
+            enumerator = next(name for name in of.selector.values if case_of(of, name) is not None)
+            case = case_of(of, enumerator)
+            assert case is not None
+            return [enumerator, a_value(case.of)]
+        case d.Array():
+            made = a_value(of.of)
+            for size in reversed(of.sizes):
+                made = [_like(made) for _ in range(size)]
+            return made
+        case d.Alias():
+            return a_value(of.of)
+        case _:
+            return []
+
+
+def _like(value: d.Datum) -> d.Datum:
+    return [_like(one) for one in value] if isinstance(value, list) else value
+
+
 def spell(value: d.Datum) -> str:
     """A value as text, for attributes: JSON, as on the wire."""
     return msgspec.json.encode(value).decode()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated, Final, Literal
 
+from ucm_cts.adapters.contract import platform_interfaces as platform
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.traits import Names
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
@@ -55,17 +56,34 @@ class QuerySiblings(Value, frozen=True, tag_field="do", tag="siblings"):
     """A fragment calls ``get_components`` of its container interface (11.2.1.4)."""
 
 
+class Remembered(Value, frozen=True):
+    """An argument that a body was given before, in place of one that a plan spells.
+
+    ``argument``: the argument in whose place it stands, from 0.
+    ``method``: the method that the body was entered at.
+    ``position``: its argument there, from 0.
+    ``nth``: the number of that entry among those at ``method``, from 1; 0 is the entry in which the body acts.
+    """
+
+    argument: Int32
+    method: MethodName
+    position: Int32
+    nth: Int32 = 0
+
+
 class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     """The probe calls a method on every reference that it holds for a required port element.
 
     ``port``: the required port element: one of its own, or the ``element`` of a technical policy.
     ``method``: name of the method.
     ``arguments``: values of the IN and INOUT parameters, in order.
+    ``remembered``: what takes the place of some of them. The probe does not call while it has not been given one of these.
     """
 
     port: PortElementName
     method: MethodName
     arguments: tuple[Datum, ...] = ()
+    remembered: tuple[Remembered, ...] = ()
 
 
 class Answer(Value, frozen=True, tag_field="do", tag="answer"):
@@ -142,8 +160,11 @@ MESSAGE_CONNECTOR: Final = "simple_message_connector"
 """The connectors of 10.1.5 and 10.1.6."""
 
 PUSH = "push"
-STANDARD_METHODS = frozenset((PUSH, "get_local_time", "get_synchronized_time", "log"))
-"""The methods of 10.1's interfaces: of messages, the clock and the trace."""
+STANDARD_METHODS = frozenset((PUSH, "get_local_time", "get_synchronized_time", "log", *platform.METHODS))
+"""The methods of the platform's interfaces: of messages, the clock, the trace and the connectors of 10.4."""
+
+STANDARD_ELEMENTS = platform.ELEMENTS
+"""Port elements whose names are those of the text."""
 
 METHODS_TO_TRACE, LOG_SEVERITY = "methods_to_trace", "log_severity"
 """The parameters of port_trace."""

@@ -21,9 +21,10 @@ from ucm_cts.adapters.contract.container_calls import (
     UsedLink,
     UsedReference,
 )
-from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.declarations import *
 from ucm_cts.adapters.contract.declarations import Declaration, Payload, PortElementName
+from ucm_cts.adapters.contract.platform_interfaces import PARAMETERS
 from ucm_cts.adapters.contract.traits import Binds, Lasts, Names, Uses
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
@@ -99,33 +100,37 @@ class Join(StepBase, frozen=True, tag_field="op", tag="join"):
 
 
 class Link(StepBase, frozen=True, tag_field="op", tag="link"):
-    """Make a connection without ends (9.5.5.4) with a core connector.
+    """Make a connection without ends (9.5.5.4) with a connector of the platform.
 
-    ``connector``: the connector of 10.1.
-    ``interface``: what it is bound to; of the message connector: message_intf bound to a type, with ``push`` alone.
+    ``connector``: the connector of 10.1 or 10.4.
+    ``interface``: what it is bound to; of the message connector: message_intf bound to a type, with ``push`` alone; of a connector
+    of 10.4: a name in the scenario's ``types``.
     ``bind``: variable for the link.
     """
 
     optional = True
     wording = "{bind}: {connector} of {interface}"
 
-    connector: Literal["simple_service_connector", "simple_message_connector"]
+    connector: Literal[
+        "simple_service_connector", "simple_message_connector", "request-response_connector", "shared-data_connector"
+    ]
     interface: Annotated[str, Names("interface")]
     bind: Annotated[str, Binds("link")]
 
     @property
     def claim(self) -> str:
-        """The connector is a part of 10.1."""
-        return self.connector
+        """The connector is a part of the platform: 10.1 has it by its name, 10.4 as an interaction."""
+        return self.connector.removesuffix("_connector") if self.connector in PARAMETERS else self.connector
 
 
 class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
-    """Make a port element an end of a link.
+    """Make a port element, or a port of 10.4 with all its elements, an end of a link.
 
     ``link``: the link.
-    ``role``: clients and emitters require the port element, servers and receivers provide it.
+    ``role``: clients and emitters require the port element, servers and receivers provide it; the other roles are the names of the
+    connector ports of 10.4.
     ``id``: the component.
-    ``port``: its port element.
+    ``port``: its port element; for a connector port of 10.4 its port.
     ``container``: where.
     """
 
@@ -133,18 +138,29 @@ class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
     wording = "{role} {id}.{port} to {link}"
 
     link: UsedLink
-    role: Literal["client", "server", "emitter", "receiver"]
+    role: Literal[
+        "client",
+        "server",
+        "emitter",
+        "receiver",
+        "rr_synchronous_client",
+        "rr_synchronous_server",
+        "rr_asynchronous_client",
+        "rr_asynchronous_server",
+        "sd_reader",
+        "sd_writer",
+    ]
     id: UsedComponent
     port: PortElementName
     container: UsedContainer = MANAGER
 
 
 class Detach(StepBase, frozen=True, tag_field="op", tag="detach"):
-    """A port element is no longer an end of a link.
+    """A port element, or a port, is no longer an end of a link.
 
     ``link``: the link.
     ``id``: the component.
-    ``port``: its port element.
+    ``port``: as in ``Attach``.
     ``container``: where.
     """
 
@@ -294,6 +310,8 @@ class Scenario(Value, frozen=True):
     ``patience``: how long a wait step may wait, in milliseconds.
     ``interfaces``: by name.
     ``may_stay``: workers that need not return; hosts ignore it.
+    ``types``: by name, what a connector of 10.4 is bound to: data types by template parameter. The interfaces that follow from it
+    are among ``interfaces``, as ``platform_interfaces.named_interfaces`` has them.
     """
 
     components: dict[str, Declaration]
@@ -301,6 +319,7 @@ class Scenario(Value, frozen=True):
     patience: Int64 = 2000
     interfaces: dict[str, Interface] = {}
     may_stay: tuple[str, ...] = ()
+    types: dict[str, dict[str, AnyType]] = {}
 
 
 def operation(step: Step) -> str:

@@ -70,6 +70,7 @@ class Disguise:
                 )
                 for name, interface in scenario.interfaces.items()
             },
+            types={self._name(name): types for name, types in scenario.types.items()},
         )
 
     def reveal(self, value: T) -> T:
@@ -110,7 +111,10 @@ class Disguise:
         spelled = self._ports.get(plain)
         if spelled is None:
             port, _, element = plain.partition(".")
-            spelled = self._port_element_name.format(port=self._name(port), element=self._name(element))
+            spelled = self._name(port)
+            if element:
+                known = element if element in s.STANDARD_ELEMENTS else self._name(element)
+                spelled = self._port_element_name.format(port=spelled, element=known)
             self._ports[plain] = spelled
             self._remember(spelled, plain)
         return spelled
@@ -170,7 +174,8 @@ class Disguise:
     def _action(self, action: Action) -> Action:
         named = self._named(action)
         if isinstance(named, s.CallMethod):
-            return msgspec.structs.replace(named, arguments=self._arguments(named))
+            remembered = tuple(map(self._named, named.remembered))
+            return msgspec.structs.replace(named, arguments=self._arguments(named), remembered=remembered)
         return named
 
     def _arguments(self, call: s.CallMethod) -> tuple[Datum, ...]:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import msgspec
+
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Action, Declaration
-from ucm_cts.adapters.contract.trace import Held, Pushed, Request, Siblings
+from ucm_cts.adapters.contract.trace import Enter, Held, Pushed, Request, Siblings
 
 Act = Request | Pushed | Siblings | Held
 """Events that show an action of a plan."""
@@ -26,6 +29,47 @@ def plan_of(declaration: Declaration, hook: s.Hook) -> Plan:
     actions = declaration.plan.get(hook, ())
     returned = [a.value for a in actions if isinstance(a, s.ReturnValue)]
     return Plan(actions, any(isinstance(a, s.RaiseError) for a in actions), returned[-1] if returned else None)
+
+
+def remembers(declaration: Declaration) -> bool:
+    """Does a plan of the body name what it was given before?"""
+    return any(isinstance(a, s.CallMethod) and a.remembered for plan in declaration.plan.values() for a in plan)
+
+
+def as_remembered(
+    plan: Sequence[Action], acts: Sequence[Act], enter: Enter, entries: Sequence[Enter]
+) -> tuple[Action, ...]:
+    """The plan of a body that was entered by ``enter``, with the values that it had been given at its ``entries``.
+
+    A call is left out if the body had not been given one of its values; if it was given it meanwhile, the ``acts`` decide.
+    """
+    found: list[Action] = []
+    for action in plan:
+        if not isinstance(action, s.CallMethod) or not action.remembered:
+            found.append(action)
+            continue
+        given = [_given(one, enter, entries) for one in action.remembered]
+        if None in given:
+            continue
+        arguments: list[Datum] = list(action.arguments)
+        for one, entry in zip(action.remembered, given, strict=True):
+            assert entry is not None
+            arguments[one.argument] = (entry.arguments or ())[one.position]
+        call = msgspec.structs.replace(action, arguments=tuple(arguments), remembered=())
+        meanwhile = any(entry is not None and entry.n > enter.n for entry in given)
+        if not meanwhile or any(_is(act, call) for act in acts):
+            found.append(call)
+    return tuple(found)
+
+
+def _given(one: s.Remembered, enter: Enter, entries: Sequence[Enter]) -> Enter | None:
+    """The entry that has the value; None if there is none."""
+    if one.nth == 0:
+        found = enter if enter.hook == "method" and enter.method == one.method else None
+    else:
+        matching = [entry for entry in entries if entry.method == one.method]
+        found = matching[one.nth - 1] if one.nth <= len(matching) else None
+    return found if found is not None and one.position < len(found.arguments or ()) else None
 
 
 def is_as_planned(plan: Sequence[Action], acts: Sequence[Act], held: tuple[dict[str, int], ...], done: int = 0) -> bool:

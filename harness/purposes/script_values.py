@@ -38,7 +38,17 @@ def _problem_of_call(call: s.CallMethod, interface: Interface) -> str:
         return (
             f"its interface has no method '{call.method}'; there are {', '.join(sorted(interface.methods)) or 'none'}"
         )
-    return _problem_of_values(call.method, "argument", {p.name: p.of for p in method.arguments}, call.arguments)
+    problem = _problem_of_values(call.method, "argument", {p.name: p.of for p in method.arguments}, call.arguments)
+    return problem or _problem_of_remembered(call)
+
+
+def _problem_of_remembered(call: s.CallMethod) -> str:
+    for one in call.remembered:
+        if not 0 <= one.argument < len(call.arguments):
+            return f"remembered: {call.method} has no argument {one.argument}; they are numbered from 0"
+        if one.position < 0 or one.nth < 0:
+            return "remembered: 'position' counts from 0, 'nth' from 1 (0 is the entry in which the body acts)"
+    return ""
 
 
 def _problem_of_answer(answer: s.Answer, interfaces: Iterable[Interface]) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Interface, message_interface
+from ucm_cts.adapters.contract.platform_interfaces import PARAMETERS, connector_of, named_interfaces
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
 from ucm_cts.adapters.contract.traits import bindings, named, uses
 from ucm_cts.adapters.contract.value import Value
@@ -56,6 +57,7 @@ class Script(Value, frozen=True):
     ``patience``: how long a wait step may wait, in milliseconds.
     ``interfaces``: by name.
     ``messages``: types by name, for further interfaces: message_intf (10.1.6.2), bound to the type.
+    ``types``: what connectors of 10.4 are bound to, by name, for further interfaces ``name.interface`` of 10.4.
     ``may_stay``: workers that need not return.
     ``under``: conditions on the vendor's readings, as in ``TestPurpose``.
     """
@@ -68,6 +70,7 @@ class Script(Value, frozen=True):
     patience: int = 2000
     interfaces: dict[str, Interface] = {}
     messages: dict[str, AnyType] = {}
+    types: dict[str, dict[str, AnyType]] = {}
     may_stay: tuple[str, ...] = ()
     under: tuple[str, ...] = ()
 
@@ -146,11 +149,15 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             ports=part.ports,
             defaults=part.defaults,
         )
-    return Scenario(components, script.steps, script.patience, _interfaces_of(script), script.may_stay)
+    return Scenario(components, script.steps, script.patience, _interfaces_of(script), script.may_stay, script.types)
 
 
 def _interfaces_of(script: Script) -> dict[str, Interface]:
-    return script.interfaces | {name: message_interface(of) for name, of in script.messages.items()}
+    found = script.interfaces | {name: message_interface(of) for name, of in script.messages.items()}
+    for name, types in script.types.items():
+        if connector_of(types) is not None:
+            found |= named_interfaces(name, types)
+    return found
 
 
 def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list[tuple[str, str]]:
@@ -158,6 +165,11 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
     probes = probes or load_probe_types()
     found: list[tuple[str, str]] = []
     interfaces = _interfaces_of(script)
+    found += [
+        (f".types.{name}", f"no connector of 10.4 is bound to {_list(types)}; there are {_list_of_parameters()}")
+        for name, types in script.types.items()
+        if connector_of(types) is None
+    ]
     for name, part in script.components.items():
         where = f".components.{name}"
         if name in (s.MANAGER, s.UNKNOWN, s.NIL):
@@ -197,8 +209,9 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             if gate not in gates:
                 found.append((where, f"no plan holds at gate '{gate}'; there are {_list(gates)}"))
         for interface in named(step, "interface"):
-            if interface not in interfaces:
-                found.append((where, f"no interface '{interface}'; there are {_list(interfaces)}"))
+            known = script.types if isinstance(step, s.Link) and step.connector in PARAMETERS else interfaces
+            if interface not in known:
+                found.append((where, f"no interface '{interface}'; there are {_list(known)}"))
         for component in named(step, "component"):
             if component not in script.components:
                 found.append((where, f"no component '{component}'; there are {_list(script.components)}"))
@@ -213,6 +226,10 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
 def _overlapping(script: Script) -> list[tuple[str, str]]:
     still = "may still be operating a container; join it first"
     return [(f".steps[{index}]", f"'{worker}' {still}") for index, worker in overlaps(script.steps)]
+
+
+def _list_of_parameters() -> str:
+    return ", ".join(f"{connector} ({', '.join(names)})" for connector, names in PARAMETERS.items())
 
 
 def _list(names: Iterable[str]) -> str:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Boolean, Enumeration
+from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS
 from ucm_cts.reference_models.model.executions import BusinessCall, connections_behind
-from ucm_cts.reference_models.model.links import SENDERS, TAKERS, End, LinkState
+from ucm_cts.reference_models.model.links import SENDERS, End, LinkState, element_names
 from ucm_cts.reference_models.model.method_calls import Delivery, Fit, MethodCall, Operation, PushedBurst, Wait
 from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime
 from ucm_cts.reference_models.model.value_transport import distance
@@ -78,7 +79,7 @@ class Interactions:
 
     def links_of(self, member: Member) -> list[LinkState]:
         """The links that provided port elements of ``member`` are attached to."""
-        return [link for link in self.links.values() if any(end.member is member for end in link.live(*TAKERS))]
+        return [link for link in self.links.values() if any(end.member is member for end in link.takers)]
 
     def is_mistyped(self, link: LinkState) -> bool:
         """Did something of another type come to a body through it? Then it is open which message that was."""
@@ -87,9 +88,7 @@ class Interactions:
     def is_used_elsewhere(self, member: Member) -> bool:
         """Does a link join a provided port element of ``member`` with an end in another container?"""
         return any(
-            end.member.container is not member.container
-            for link in self.links_of(member)
-            for end in link.live(*SENDERS)
+            end.member.container is not member.container for link in self.links_of(member) for end in link.senders
         )
 
     def has_refused(self, link: LinkState, role: str) -> bool:
@@ -139,17 +138,27 @@ class Interactions:
             return
         for replaced in link.live("server") if step.role == "server" and self._runtime.replaces_servers else ():
             replaced.until = begin.n
-        end = End(step.role, member, step.port, begin.n)
-        if step.role in SENDERS:
-            end.connection = Connection(link.name, NO_ID, member, step.port, "opaque", None)
-            member.connections.append(end.connection)
-        link.ends.append(end)
+        kind = CONNECTOR_PORTS.get(step.role)
+        if kind is None:
+            ends = [(step.port, step.role in SENDERS, "")]
+        else:
+            names = element_names(member.declaration, step.port, kind)
+            ends = [(name, not element.provided, step.port) for element, name in names.items()]
+        for port, requires, of in ends:
+            end = End(step.role, member, port, begin.n, of=of)
+            if requires:
+                end.connection = Connection(link.name, NO_ID, member, port, "opaque", None)
+                member.connections.append(end.connection)
+            link.ends.append(end)
         self._connect_ends(link)
 
     def _connect_ends(self, link: LinkState) -> None:
         """A client is connected while the link has a taker; with two servers its provider is unknown."""
-        servers, takers = link.live("server"), link.live(*TAKERS)
-        for sender in link.live(*SENDERS):
+        if link.is_extended:
+            self._connect_extended(link)
+            return
+        servers, takers = link.live("server"), link.takers
+        for sender in link.senders:
             if sender.connection is not None:
                 known = bool(takers) or link.connector == s.MESSAGE_CONNECTOR
                 sender.connection.live = True if known else None
@@ -158,10 +167,18 @@ class Interactions:
                 sender.connection.provider = only.member if only is not None else None
                 sender.connection.provided = only.port if only is not None else ""
 
+    def _connect_extended(self, link: LinkState) -> None:
+        """A port of 10.4 is connected to the connector; while nothing is at the other side, that is left open."""
+        for sender in link.senders:
+            across = [e for e in (*link.senders, *link.takers) if e.side != sender.side]
+            if sender.connection is not None:
+                sender.connection.live = True if across else None
+                sender.connection.takers = tuple(end.member for end in across)
+
     def _detach(self, link: LinkState, step: s.Detach, begin: t.Call) -> None:
         member = self._runtime.members.get(step.id)
-        for end in link.live("client", "emitter", "server", "receiver"):
-            if end.member is member and end.port == step.port:
+        for end in (*link.senders, *link.takers):
+            if end.member is member and step.port == (end.of or end.port):
                 end.until = begin.n
                 if end.connection is not None:
                     end.connection.live = False
@@ -172,10 +189,11 @@ class Interactions:
         caller = self._runtime.bodies.get(event.body)
         ready = caller is not None and caller.serving
         started = self._runtime.startups.get(event.body, (0, 0))[0]
-        call = MethodCall(event, business, caller, self._link_of(caller, event.port, SENDERS), ready, started)
-        if call.link is not None:
+        end = self._end_of(caller, event.port, True)
+        call = MethodCall(event, business, caller, end[0] if end is not None else None, ready, started)
+        if end is not None and call.link is not None:
             call.broken = call.link.broken
-            call.targets = [(end, end.member.serving) for end in call.link.live(*TAKERS)]
+            call.targets = [(other, other.member.serving) for other in call.link.across(end[1])]
             call.prepared = self._is_prepared(call)
             call.idle = [end for end, _ in call.targets if _is_idle(self._runtime, end.member)]
         if call.is_message:
@@ -195,7 +213,8 @@ class Interactions:
     def enter(self, event: t.Enter) -> Delivery | None:
         """A body is entered at a method."""
         receiver = self._runtime.bodies.get(event.body)
-        link = self._link_of(receiver, event.port or "", TAKERS)
+        end = self._end_of(receiver, event.port or "", False)
+        link = end[0] if end is not None else None
         call, fit = self._call_behind(event, receiver, link)
         delivery = Delivery(event, receiver, link, call, fit)
         if call is not None:
@@ -213,7 +232,8 @@ class Interactions:
     def push(self, event: t.Pushed) -> None:
         """A body has pushed a burst."""
         caller = self._runtime.bodies.get(event.body)
-        link = self._link_of(caller, event.port, SENDERS)
+        end = self._end_of(caller, event.port, True)
+        link = end[0] if end is not None else None
         ends = link.live("receiver") if link is not None else []
         self.bursts.append(PushedBurst(event, link, [end.member for end in ends if end.member.serving]))
 
@@ -251,11 +271,11 @@ class Interactions:
             link
             for link in self.links.values()
             if not link.is_proper
-            and any(container in (None, end.member.container) for end in link.live(*SENDERS, *TAKERS))
+            and any(container in (None, end.member.container) for end in (*link.senders, *link.takers))
         ]
 
     def _is_prepared(self, call: MethodCall) -> bool:
-        senders = call.link.live(*SENDERS) if call.link is not None else []
+        senders = call.link.senders if call.link is not None else []
         own = [end for end in senders if end.member is call.caller and end.port == call.request.port]
         ends = [*own, *(end for end, _ in call.targets)]
         begun = [self._runtime.startups.get(end.member.body) for end in ends]
@@ -271,21 +291,23 @@ class Interactions:
                 call.crowded = call.crowded or any(ready and not _is_done(other, end) for end, ready in other.targets)
         self._under_way.append(call)
 
-    def _link_of(self, member: Member | None, port: str, roles: tuple[str, ...]) -> LinkState | None:
-        """The link that ``port`` of ``member`` is, or was last, an end of."""
+    def _end_of(self, member: Member | None, port: str, requires: bool) -> tuple[LinkState, End] | None:
+        """The link that ``port`` of ``member`` is, or was last, an end of, and that end."""
         ends = [
-            (end.until is None, end.since, link)
+            (end.until is None, end.since, link, end)
             for link in self.links.values()
             for end in link.ends
-            if end.member is member and end.port == port and end.role in roles
+            if end.member is member and end.port == port and (end.connection is not None) is requires
         ]
-        return max(ends, key=lambda e: e[:2])[2] if ends else None
+        return max(ends, key=lambda e: e[:2])[2:] if ends else None
 
     def _call_behind(
         self, event: t.Enter, receiver: Member | None, link: LinkState | None
     ) -> tuple[MethodCall | None, Fit]:
         """The call that led to this entry. Services answer before the next call of the client; messages may come late."""
         is_message = link is not None and link.connector == s.MESSAGE_CONNECTOR
+        if link is not None and link.is_extended:
+            return self._request_behind(event, link)
         candidates = [c for c in self.calls if c.request.method == event.method and self._leads_to(c, receiver, link)]
         if not is_message:
             candidates = _waiting(candidates, event)
@@ -305,6 +327,12 @@ class Interactions:
         if mixed_up and not (altered and self._has_few_values(event, link)):
             return None, "stray"
         return _nearest(altered, event), "altered" if altered else "stray"
+
+    def _request_behind(self, event: t.Enter, link: LinkState) -> tuple[MethodCall | None, Fit]:
+        """The call that waits for this entry of a synchronous server; others are paired when the trace is over."""
+        waiting = [c for c in self.calls if c.link is link and c.reply is None and not c.deliveries]
+        same = [c for c in waiting if c.request.method == event.method and c.request.arguments == event.arguments]
+        return (same[0], "same") if same else (None, "stray")
 
     def _has_few_values(self, event: t.Enter, link: LinkState | None) -> bool:
         """Is what was given of types with so few values that one says nothing of where it came from?"""

@@ -8,7 +8,7 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.reference_models.model.executions import BusinessCall, connections_behind
-from ucm_cts.reference_models.model.links import TAKERS, End, LinkState
+from ucm_cts.reference_models.model.links import End, LinkState
 from ucm_cts.reference_models.model.runtime import Member
 
 NEVER = 2**63
@@ -118,7 +118,7 @@ class MethodCall:
     def goals(self) -> set[tuple[Member, str]]:
         """The port elements that it may come to, as far as they are known."""
         if self.link is not None:
-            return {(end.member, end.port) for end in self.link.ends if end.role in TAKERS}
+            return {(end.member, end.port) for end in self.link.ends if end.connection is None}
         behind = connections_behind(self.caller, self.request.port) if self.caller is not None else ()
         return {(c.provider, c.provided) for c in behind if c.provider is not None}
 

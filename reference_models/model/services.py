@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import AnyType, Interface
+from ucm_cts.adapters.contract.data_types import AnyType
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
 from ucm_cts.reference_models.model.messages import counts, settling_time
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall, Operation
@@ -241,12 +241,15 @@ def _was_mended(runtime: ObservedRuntime, one: ServiceCall) -> bool:
 
 
 def new_types(runtime: ObservedRuntime, step: s.Link) -> list[AnyType]:
-    """The types of the interface's parameters that no connector of that kind has in this runtime."""
-    interfaces = runtime.scenario.interfaces
+    """The types that it is bound to, or has in its interface, and no connector of that kind has in this runtime."""
     links = runtime.interactions.links.values()
-    known = [of for k in links if k.connector == step.connector for of in _types_of(interfaces[k.interface])]
-    return [of for of in _types_of(interfaces[step.interface]) if of not in known]
+    known = [of for k in links if k.connector == step.connector for of in _types_at(runtime, k.interface)]
+    return [of for of in _types_at(runtime, step.interface) if of not in known]
 
 
-def _types_of(interface: Interface) -> list[AnyType]:
+def _types_at(runtime: ObservedRuntime, name: str) -> list[AnyType]:
+    bound = runtime.scenario.types.get(name)
+    if bound is not None:
+        return list(bound.values())
+    interface = runtime.scenario.interfaces[name]
     return [parameter.of for method in interface.methods.values() for parameter in method.parameters]

@@ -60,7 +60,7 @@ def compatible_attachment(
     check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Result
 ) -> Concluded:
     """A port element of another interface than its connector's is refused, if so declared; compatible_ends has the rest."""
-    if link is None or not isinstance(step, s.Attach) or runtime.ics.reading(_OPTION) != "refused":
+    if link is None or link.is_extended or not isinstance(step, s.Attach) or runtime.ics.reading(_OPTION) != "refused":
         return ()
     member = runtime.members.get(step.id)
     if member is None or isinstance(end, Return) or interface_of(member, step.port) == link.interface:

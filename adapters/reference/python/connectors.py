@@ -12,6 +12,7 @@ import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import Datum, Interface
@@ -69,7 +70,7 @@ class Taker:
     member: Member
     port: str
     entrance: Entrance = field(default_factory=Entrance)
-    messages: queue.SimpleQueue[Datum | None] = field(default_factory=queue.SimpleQueue)
+    messages: queue.SimpleQueue[Any] = field(default_factory=queue.SimpleQueue)
     thread: threading.Thread | None = None
     lock: threading.Lock = field(default_factory=threading.Lock)
 
@@ -116,15 +117,47 @@ class LinkElement(pm.PortElementObject):
         return self.link.send(method, arguments)
 
 
-class Link:
-    """A connection and its connector. One concern a method, for variants to override."""
+class AnyLink:
+    """A connection and its connector, whichever that is: what all of them have."""
 
-    def __init__(self, manager: UsesConnectors, connector: str, interface: Interface) -> None:
+    def __init__(self, manager: UsesConnectors) -> None:
         self.manager = manager
-        self.connector = connector
-        self.interface = interface
         self.takers: list[Taker] = []
         self.broken = ""
+
+    def break_link(self, where: str) -> None:
+        self.broken = where
+
+    def mend_link(self) -> None:
+        self.broken = ""
+
+    def let_go(self, member: Member) -> None:
+        """``member`` is about to be stopped: end what it waits for, and what waits for it, in the connector."""
+
+    def leave(self, member: Member) -> None:
+        """``member`` is being removed."""
+        for taker in [taker for taker in self.takers if taker.member is member]:
+            self.remove(taker)
+
+    def remove(self, taker: Taker) -> None:
+        """Detach ``taker``."""
+        self.takers.remove(taker)
+        taker.close()
+
+    def _copied(self, values: Sequence[Datum]) -> list[Datum]:
+        return [_copy(value) for value in values]
+
+
+L = TypeVar("L", bound=AnyLink)
+
+
+class Link(AnyLink):
+    """A connection of 10.1. One concern a method, for variants to override."""
+
+    def __init__(self, manager: UsesConnectors, connector: str, interface: Interface) -> None:
+        super().__init__(manager)
+        self.connector = connector
+        self.interface = interface
 
     # operations of the adapter
 
@@ -150,12 +183,6 @@ class Link:
                 self.remove(taker)
             for sender in senders:
                 container._undo(sender)
-
-    def break_link(self, where: str) -> None:
-        self.broken = where
-
-    def mend_link(self) -> None:
-        self.broken = ""
 
     # ends
 
@@ -187,11 +214,6 @@ class Link:
 
     def _is_behind(self, target: pm.PortElementObject) -> bool:
         return isinstance(target, LinkElement) and target.link is self
-
-    def remove(self, taker: Taker) -> None:
-        """Detach ``taker``."""
-        self.takers.remove(taker)
-        taker.close()
 
     # calls and messages
 
@@ -232,9 +254,6 @@ class Link:
             with suppress(Exception):  # push has returned, so no caller gets the exception
                 taker.enter(method, [message])
 
-    def _copied(self, values: Sequence[Datum]) -> list[Datum]:
-        return [_copy(value) for value in values]
-
 
 def _copy(value: Datum) -> Datum:
     return [_copy(one) for one in value] if isinstance(value, list) else value
@@ -244,7 +263,7 @@ class UsesConnectors(HasMembers):
     """The part of a container that has to do with connectors."""
 
     manager: UsesConnectors
-    links: list[Link]
+    links: list[AnyLink]
     """The manager keeps all connections with a connector."""
 
     link_class: type[Link] = Link
@@ -254,11 +273,13 @@ class UsesConnectors(HasMembers):
         with self._operation():
             if connector not in SENDERS:
                 raise pm.UcmError(f"no connector {connector!r}")
-            link = self.link_class(self.manager, connector, interface)
-            self.manager.links.append(link)
-            return link
+            return self._added(self.link_class(self.manager, connector, interface))
 
-    def _takers_of(self, member: Member) -> list[tuple[Link, Taker]]:
+    def _added(self, link: L) -> L:
+        self.manager.links.append(link)
+        return link
+
+    def _takers_of(self, member: Member) -> list[tuple[AnyLink, Taker]]:
         return [(link, taker) for link in self.manager.links for taker in link.takers if taker.member is member]
 
     def _open_entrances(self, member: Member) -> None:
@@ -266,9 +287,11 @@ class UsesConnectors(HasMembers):
             taker.entrance.open()
 
     def _close_entrances(self, member: Member) -> None:
+        for link in self.manager.links:
+            link.let_go(member)
         for _, taker in self._takers_of(member):
             taker.close()
 
     def _leave_links(self, member: Member) -> None:
-        for link, taker in self._takers_of(member):
-            link.remove(taker)
+        for link in self.manager.links:
+            link.leave(member)

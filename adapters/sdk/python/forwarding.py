@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import Any, ClassVar, Self
 
 from ucm_cts.adapters.contract.adapter import Adapter, ContainerHandle, LinkHandle, NotOffered
-from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, PortElementObject, UcmError
 
 DeclaredError = type[NotFound] | type[BadParameter] | type[UcmError]
@@ -161,6 +161,9 @@ class ForwardingAdapter(Adapter):
     def link(self, manager: ContainerHandle, connector: str, interface: Interface) -> LinkHandle:
         return self.forward(manager, "link", connector, interface)
 
+    def link_with_types(self, manager: ContainerHandle, connector: str, types: Mapping[str, AnyType]) -> LinkHandle:
+        return self.forward(manager, "link_with_types", connector, types)
+
     def attach(
         self, link: LinkHandle, role: str, container: ContainerHandle, comp_instance: int, port_name: str
     ) -> None:
@@ -189,4 +192,4 @@ class ForwardingAdapter(Adapter):
         return ids.number(given) if self.numbered else given
 
 
-_OPTIONAL = {"link", "attach", "detach", "break_link", "mend_link", "read_log", "advance"}
+_OPTIONAL = {"link", "link_with_types", "attach", "detach", "break_link", "mend_link", "read_log", "advance"}

@@ -145,10 +145,15 @@ class Operations(metaclass=KeptClass):
     # Those that an adapter need not offer.
 
     def _link(self, step: s.Link) -> Callable[[], Any]:
-        interface = self._scenario.interfaces[step.interface]
+        types = self._scenario.types.get(step.interface)
+        if types is not None:
+            make = partial(self._adapter.link_with_types, self._manager, step.connector, types)
+        else:
+            interface = self._scenario.interfaces[step.interface]
+            make = partial(self._adapter.link, self._manager, step.connector, interface)
 
         def operate() -> None:
-            self._variables.bind_link(step.bind, self._adapter.link(self._manager, step.connector, interface))
+            self._variables.bind_link(step.bind, make())
 
         return operate
 

@@ -15,6 +15,7 @@ from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
 from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
 from ucm_cts.adapters.sdk.python.data import TooMany, at_most, in_words, is_datum, overwrite, snapshot
 from ucm_cts.adapters.sdk.python.gates import Gates
+from ucm_cts.adapters.sdk.python.memory import Entry, Memory
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
 
@@ -123,6 +124,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._execution = ProbeExecution(self) if executes_itself else None
         self._attributes: dict[str, str] = {}
         self._references: dict[str, list[pm.PortElementObject]] = {}
+        self._given = Memory(declaration.plan)
         self._container: pm.ContainerInterface | None = None
 
     def parts(self) -> tuple[object, ...]:
@@ -203,14 +205,18 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             self.stage.messages.add(self.component, self.instance, int(arguments[0]))  # type: ignore[arg-type]
             return ["ok"]
         given = snapshot(arguments)
-        self._record(t.Enter, hook="method", port=port, method=method, arguments=given, wrong=wrong)
+        entry = self._given.entry(
+            method,
+            given,
+            lambda: self._record(t.Enter, hook="method", port=port, method=method, arguments=given, wrong=wrong),
+        )
         answer = s.Answer(method, ())
         for action in plan:
             if isinstance(action, s.RaiseError):
                 self._record(t.Exit, hook="method", raised=True)
                 raise PlannedFailure(f"{self.component} fails in {method}, as planned")
             if not isinstance(action, s.Answer):
-                self._act(action)
+                self._act(action, entry)
             elif action.method == method:
                 answer = action
         results = snapshot(given if answer.results is None else answer.results)
@@ -238,13 +244,15 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._record(t.Exit, hook=hook, value=result)
         return result
 
-    def _act(self, action: Action) -> None:
+    def _act(self, action: Action, entry: Entry | None = None) -> None:
+        """Carry out ``action``, in the ``entry`` at a method if there is one."""
         if isinstance(action, s.CallPort):
             for reference in tuple(self._references.get(action.port, ())):
                 self._call(action.port, reference, action.value)
         elif isinstance(action, s.CallMethod):
-            for reference in tuple(self._references.get(action.port, ())):
-                self._call_method(action, reference)
+            arguments = self._given.arguments(action, entry)
+            for reference in tuple(self._references.get(action.port, ())) if arguments is not None else ():
+                self._call_method(action, reference, arguments or ())
         elif isinstance(action, s.Burst):
             for reference in tuple(self._references.get(action.port, ())):
                 self._push(action, reference)
@@ -264,9 +272,9 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         given: dict[str, Any] = {"value": int(result)} if is_integer(result) else {"wrong": in_words(result)}
         self._record(t.Reply, port=port, **given)
 
-    def _call_method(self, action: s.CallMethod, reference: pm.PortElementObject) -> None:
-        arguments = list(snapshot(action.arguments))
-        self._record(t.Request, port=action.port, method=action.method, arguments=action.arguments)
+    def _call_method(self, action: s.CallMethod, reference: pm.PortElementObject, given: tuple[Datum, ...]) -> None:
+        arguments = list(snapshot(given))
+        self._record(t.Request, port=action.port, method=action.method, arguments=given)
         try:
             results = reference.call(action.method, arguments)
         except pm.DeclaredException as error:

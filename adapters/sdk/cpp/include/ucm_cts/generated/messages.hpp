@@ -33,6 +33,19 @@ struct Hello {
     std::int64_t protocol = 0;
 };
 
+/// An argument that a body was given before, in place of one that a plan spells.
+///
+/// `argument`: the argument in whose place it stands, from 0.
+/// `method`: the method that the body was entered at.
+/// `position`: its argument there, from 0.
+/// `nth`: the number of that entry among those at `method`, from 1; 0 is the entry in which the body acts.
+struct Remembered {
+    std::int32_t argument = 0;
+    std::string method;
+    std::int32_t position = 0;
+    std::int32_t nth = 0;
+};
+
 enum class ActionKind {
     raise, return_value, call, hold, siblings, call_method, answer, burst, count
 };
@@ -63,6 +76,9 @@ struct Action {
 
     /// Of call_method.
     std::vector<Datum> arguments;
+
+    /// Of call_method.
+    std::vector<Remembered> remembered;
 
     /// Of answer.
     std::vector<Datum> results;
@@ -338,12 +354,15 @@ struct Interface {
 /// `patience`: how long a wait step may wait, in milliseconds.
 /// `interfaces`: by name.
 /// `may_stay`: workers that need not return; hosts ignore it.
+/// `types`: by name, what a connector of 10.4 is bound to: data types by template parameter. The interfaces that follow
+/// from it are among `interfaces`, as `platform_interfaces.named_interfaces` has them.
 struct Scenario {
     std::vector<std::pair<std::string, Declaration>> components;
     std::vector<Step> steps;
     std::int64_t patience = 2000;
     std::map<std::string, SharedInterface> interfaces;
     std::vector<std::string> may_stay;
+    std::map<std::string, std::map<std::string, SharedType>> types;
 };
 
 /// Harness to host: run a scenario on a new runtime.

@@ -12,6 +12,7 @@
 namespace ucm_cts {
 
 inline void read(const json::Value& value, Hello& into);
+inline void read(const json::Value& value, Remembered& into);
 inline void read(const json::Value& value, Action& into);
 inline void read(const json::Value& value, Policy& into);
 inline void read(const json::Value& value, Declaration& into);
@@ -29,6 +30,15 @@ inline void read(const json::Value& value, Hello& into) {
     std::string tag;
     fields.required("type", tag);
     fields.required("protocol", into.protocol);
+    fields.end();
+}
+
+inline void read(const json::Value& value, Remembered& into) {
+    json::Fields fields(value);
+    fields.required("argument", into.argument);
+    fields.required("method", into.method);
+    fields.required("position", into.position);
+    fields.optional("nth", into.nth);
     fields.end();
 }
 
@@ -52,6 +62,7 @@ inline void read_members(json::Fields& fields, Action& into) {
             fields.required("port", into.port);
             fields.required("method", into.method);
             fields.optional("arguments", into.arguments);
+            fields.optional("remembered", into.remembered);
             break;
         case Action::Kind::answer:
             fields.required("method", into.method);
@@ -99,16 +110,17 @@ inline void read(const json::Value& value, Declaration& into) {
 
 inline Words words_of_Link_connector() {
     static const char* const words[] = {
-        "simple_message_connector", "simple_service_connector"
+        "request-response_connector", "shared-data_connector", "simple_message_connector", "simple_service_connector"
     };
-    return Words{words, 2};
+    return Words{words, 4};
 }
 
 inline Words words_of_Attach_role() {
     static const char* const words[] = {
-        "client", "emitter", "receiver", "server"
+        "client", "emitter", "receiver", "rr_asynchronous_client", "rr_asynchronous_server", "rr_synchronous_client",
+        "rr_synchronous_server", "sd_reader", "sd_writer", "server"
     };
-    return Words{words, 4};
+    return Words{words, 10};
 }
 
 inline Words words_of_Break_where() {
@@ -378,6 +390,7 @@ inline void read(const json::Value& value, Scenario& into) {
     fields.optional("patience", into.patience);
     fields.optional("interfaces", into.interfaces);
     fields.optional("may_stay", into.may_stay);
+    fields.optional("types", into.types);
     fields.end();
 }
 

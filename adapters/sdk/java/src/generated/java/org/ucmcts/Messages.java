@@ -25,6 +25,46 @@ import org.ucmcts.Shape.Misfit;
 final class Messages {
     private Messages() {}
 
+    private static final Shape REMEMBERED = object(Remembered::new,
+            needs("argument", INT32),
+            needs("method", TEXT),
+            needs("position", INT32),
+            may("nth", INT32, 0L));
+
+    /**
+     * An argument that a body was given before, in place of one that a plan spells.
+     *
+     * `argument`: the argument in whose place it stands, from 0.
+     * `method`: the method that the body was entered at.
+     * `position`: its argument there, from 0.
+     * `nth`: the number of that entry among those at `method`, from 1; 0 is the entry in which the body acts.
+     */
+    static final class Remembered extends Node {
+        private Remembered(Map<String, Object> fields) {
+            super(fields);
+        }
+
+        long argument() {
+            return number("argument");
+        }
+
+        String method() {
+            return text("method");
+        }
+
+        long position() {
+            return number("position");
+        }
+
+        long nth() {
+            return number("nth");
+        }
+    }
+
+    static Object readRemembered(Object value, String place) throws Misfit {
+        return REMEMBERED.read(value, place);
+    }
+
     private static final Shape ACTION = tagged("do", Action::new,
             new Kind("raise"),
             new Kind("return",
@@ -38,7 +78,8 @@ final class Messages {
             new Kind("call_method",
                     needs("port", TEXT),
                     needs("method", TEXT),
-                    may("arguments", list(DATUM), List.of())),
+                    may("arguments", list(DATUM), List.of()),
+                    may("remembered", list(Messages::readRemembered), List.of())),
             new Kind("answer",
                     needs("method", TEXT),
                     may("results", orNull(list(DATUM)), null),
@@ -84,6 +125,11 @@ final class Messages {
         /** Of call_method. */
         List<Object> arguments() {
             return as(get("arguments"));
+        }
+
+        /** Of call_method. */
+        List<Remembered> remembered() {
+            return as(get("remembered"));
         }
 
         /** Of answer. */
@@ -296,13 +342,16 @@ final class Messages {
                     may("thread", orNull(TEXT), null)),
             new Kind("link",
                     needs("connector", choice(
-                            "simple_message_connector", "simple_service_connector")),
+                            "request-response_connector", "shared-data_connector", "simple_message_connector",
+                            "simple_service_connector")),
                     needs("interface", TEXT),
                     needs("bind", TEXT),
                     may("thread", orNull(TEXT), null)),
             new Kind("attach",
                     needs("link", TEXT),
-                    needs("role", choice("client", "emitter", "receiver", "server")),
+                    needs("role", choice(
+                            "client", "emitter", "receiver", "rr_asynchronous_client", "rr_asynchronous_server",
+                            "rr_synchronous_client", "rr_synchronous_server", "sd_reader", "sd_writer", "server")),
                     needs("id", TEXT),
                     needs("port", TEXT),
                     may("container", TEXT, "manager"),
@@ -746,7 +795,8 @@ final class Messages {
             needs("steps", list(Messages::readStep)),
             may("patience", INT64, 2000L),
             may("interfaces", map(TEXT, Messages::readInterface), new Node(Map.of())),
-            may("may_stay", list(TEXT), List.of()));
+            may("may_stay", list(TEXT), List.of()),
+            may("types", map(TEXT, map(TEXT, Messages::readAnyType)), new Node(Map.of())));
 
     /**
      * A scenario.
@@ -756,6 +806,8 @@ final class Messages {
      * `patience`: how long a wait step may wait, in milliseconds.
      * `interfaces`: by name.
      * `may_stay`: workers that need not return; hosts ignore it.
+     * `types`: by name, what a connector of 10.4 is bound to: data types by template parameter. The interfaces that
+     * follow from it are among `interfaces`, as `platform_interfaces.named_interfaces` has them.
      */
     static final class Scenario extends Node {
         private Scenario(Map<String, Object> fields) {
@@ -780,6 +832,10 @@ final class Messages {
 
         List<String> mayStay() {
             return as(get("may_stay"));
+        }
+
+        Map<String, Map<String, AnyType>> types() {
+            return as(node("types").fields());
         }
     }
 

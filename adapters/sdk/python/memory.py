@@ -1,0 +1,62 @@
+"""What a body was given before, for the plans that name it (``Remembered``)."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.scenario import Action, Hook
+from ucm_cts.adapters.sdk.python.seal import KeptClass
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A body was entered at ``method`` with these ``arguments``."""
+
+    method: str
+    arguments: tuple[Datum, ...]
+
+
+class Memory(metaclass=KeptClass):
+    """The arguments of the methods that ``plan`` wants remembered."""
+
+    def __init__(self, plan: Mapping[Hook, Sequence[Action]]) -> None:
+        actions = [action for actions in plan.values() for action in actions]
+        self._methods = {
+            one.method for action in actions if isinstance(action, s.CallMethod) for one in action.remembered
+        }
+        self._seen: list[Entry] = []
+        self._lock = threading.Lock()
+
+    def entry(self, method: str, arguments: tuple[Datum, ...], record: Callable[[], None]) -> Entry:
+        """Record and remember an entry, in one and the same order."""
+        entry = Entry(method, arguments)
+        if method not in self._methods:
+            record()
+            return entry
+        with self._lock:
+            record()
+            self._seen.append(entry)
+        return entry
+
+    def arguments(self, call: s.CallMethod, entry: Entry | None) -> tuple[Datum, ...] | None:
+        """The arguments of ``call``, made in ``entry`` if there is one; None while the body was not given one of them."""
+        if not call.remembered:
+            return call.arguments
+        made = list(call.arguments)
+        for one in call.remembered:
+            found = self._find(one, entry)
+            if found is None or not (one.position < len(found.arguments) and one.argument < len(made)):
+                return None
+            made[one.argument] = found.arguments[one.position]
+        return tuple(made)
+
+    def _find(self, one: s.Remembered, entry: Entry | None) -> Entry | None:
+        if one.nth == 0:
+            return entry if entry is not None and entry.method == one.method else None
+        with self._lock:
+            matching = [seen for seen in self._seen if seen.method == one.method]
+        return matching[one.nth - 1] if one.nth <= len(matching) else None
