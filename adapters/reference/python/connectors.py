@@ -12,7 +12,7 @@ import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import Datum, Interface
@@ -131,7 +131,7 @@ class AnyLink:
     def mend_link(self) -> None:
         self.broken = ""
 
-    def let_go(self, member: Member) -> None:
+    def abandon(self, member: Member) -> None:
         """``member`` is about to be stopped: end what it waits for, and what waits for it, in the connector."""
 
     def leave(self, member: Member) -> None:
@@ -146,9 +146,6 @@ class AnyLink:
 
     def _copied(self, values: Sequence[Datum]) -> list[Datum]:
         return [_copy(value) for value in values]
-
-
-L = TypeVar("L", bound=AnyLink)
 
 
 class Link(AnyLink):
@@ -263,8 +260,11 @@ class UsesConnectors(HasMembers):
     """The part of a container that has to do with connectors."""
 
     manager: UsesConnectors
-    links: list[AnyLink]
-    """The manager keeps all connections with a connector."""
+    links: list[Link]
+    """Those with a connector of 10.1. The manager keeps all connections with a connector."""
+
+    extended_links: list[AnyLink]
+    """Those with a connector of 10.4, likewise."""
 
     link_class: type[Link] = Link
 
@@ -273,25 +273,32 @@ class UsesConnectors(HasMembers):
         with self._operation():
             if connector not in SENDERS:
                 raise pm.UcmError(f"no connector {connector!r}")
-            return self._added(self.link_class(self.manager, connector, interface))
+            link = self.link_class(self.manager, connector, interface)
+            self.manager.links.append(link)
+            return link
 
-    def _added(self, link: L) -> L:
-        self.manager.links.append(link)
-        return link
-
-    def _takers_of(self, member: Member) -> list[tuple[AnyLink, Taker]]:
+    def _takers_of(self, member: Member) -> list[tuple[Link, Taker]]:
         return [(link, taker) for link in self.manager.links for taker in link.takers if taker.member is member]
+
+    def _extended_takers_of(self, member: Member) -> list[Taker]:
+        return [taker for link in self.manager.extended_links for taker in link.takers if taker.member is member]
 
     def _open_entrances(self, member: Member) -> None:
         for _, taker in self._takers_of(member):
             taker.entrance.open()
+        for taker in self._extended_takers_of(member):
+            taker.entrance.open()
 
     def _close_entrances(self, member: Member) -> None:
-        for link in self.manager.links:
-            link.let_go(member)
+        for link in self.manager.extended_links:
+            link.abandon(member)
         for _, taker in self._takers_of(member):
+            taker.close()
+        for taker in self._extended_takers_of(member):
             taker.close()
 
     def _leave_links(self, member: Member) -> None:
-        for link in self.manager.links:
-            link.leave(member)
+        for link, taker in self._takers_of(member):
+            link.remove(taker)
+        for other in self.manager.extended_links:
+            other.leave(member)

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import Interface
-from ucm_cts.adapters.reference.python.connectors import AnyLink
+from ucm_cts.adapters.reference.python.connectors import AnyLink, Link
 from ucm_cts.adapters.reference.python.container_services import OffersServices, Record
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 from ucm_cts.adapters.reference.python.request_response import UsesRequestResponse
@@ -250,7 +250,8 @@ class ContainerManager(Container):
         self.implementations = {implementation.name: implementation for implementation in implementations}
         self.sub_containers: list[Container] = []
         self.connections: dict[int, Connection] = {}
-        self.links: list[AnyLink] = []
+        self.links: list[Link] = []
+        self.extended_links: list[AnyLink] = []
         self.log: list[Record] = []
         self.numbers = itertools.count(1)
         self.lock = threading.Lock()

@@ -23,7 +23,6 @@ from ucm_cts.adapters.reference.python.connectors import (
     INTERNAL_ERROR,
     OK,
     AnyLink,
-    LinkElement,
     Taker,
     UsesConnectors,
 )
@@ -108,7 +107,7 @@ class RequestResponseLink(AnyLink):
                     if isinstance(connection.target, RequestElement) and connection.target.end is end:
                         container._undo(connection)
 
-    def let_go(self, member: Member) -> None:
+    def abandon(self, member: Member) -> None:
         for request in list(self.requests.values()):
             if request.client.member is member or self._server_is(member):
                 self._drop(request)
@@ -281,4 +280,6 @@ class UsesRequestResponse(UsesConnectors):
         with self._operation():
             if platform.connector_of(types) != connector or connector != platform.REQUEST_RESPONSE:
                 raise pm.UcmError(f"no connector {connector!r} for {', '.join(types)}")
-            return self._added(self.request_response_class(self.manager, types))
+            link = self.request_response_class(self.manager, types)
+            self.manager.extended_links.append(link)
+            return link
