@@ -66,12 +66,10 @@ def with_payloads(scenario: Scenario, change: Callable[[int], int]) -> Scenario:
     def step(one: Step) -> Step:
         return msgspec.structs.replace(one, value=change(one.value)) if isinstance(one, s.Invoke) else one
 
-    return Scenario(
-        {name: declaration(one) for name, one in scenario.components.items()},
-        tuple(map(step, scenario.steps)),
-        scenario.patience,
-        scenario.interfaces,
-        scenario.may_stay,
+    return msgspec.structs.replace(
+        scenario,
+        components={name: declaration(one) for name, one in scenario.components.items()},
+        steps=tuple(map(step, scenario.steps)),
     )
 
 

@@ -44,6 +44,10 @@ class End:
         kind = self.kind
         return kind.side if kind is not None else ""
 
+    def is_of_port(self, other: End) -> bool:
+        """Do both belong to one port of one component?"""
+        return self.member is other.member and self.of == other.of
+
     @property
     def is_synchronous(self) -> bool:
         """Does a port with one element only take part in request-response?"""

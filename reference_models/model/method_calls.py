@@ -109,6 +109,12 @@ class MethodCall:
         return results[0] if results else None
 
     @property
+    def code_of_results(self) -> object:
+        """The return code that a method of 10.4 gave, which is its last result; None if it gave none."""
+        results = self.reply.results if self.reply is not None and self.reply.exception is None else None
+        return results[-1] if results else None
+
+    @property
     def is_mistyped(self) -> bool:
         """Did something of another type than that of the interface come to a body, or back?"""
         back = self.reply is not None and bool(self.reply.wrong)

@@ -6,6 +6,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.reference_models.model.executions import Executions, NoExecutions, knows_policies
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.interactions import Interactions, NoInteractions
+from ucm_cts.reference_models.model.request_events import Requests
 from ucm_cts.reference_models.model.runtime import Runtime
 from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
 
@@ -13,7 +14,7 @@ from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
 class ObservedRuntime(Runtime):
     """A runtime with what bodies execute and how they interact, recorded if the scenario is ``interacting``: if port elements
     have interfaces or components policies. ``service_calls`` and ``undisturbed`` are what the functions of services
-    with these names have found, ``is_over`` says that no event follows.
+    with these names have found, ``requests`` what ``all_requests`` has, ``is_over`` says that no event follows.
     """
 
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
@@ -25,6 +26,7 @@ class ObservedRuntime(Runtime):
         self.executions = Executions(self) if interacting else _NO_EXECUTIONS
         self.interactions = Interactions(self) if interacting else _NO_INTERACTIONS
         self.service_calls: list[ServiceCall] | None = None
+        self.requests: list[Requests] | None = None
         self.undisturbed: list[tuple[ServiceCall, Trouble]] | None = None
         self.is_over = False
 

@@ -44,9 +44,10 @@ Moment = Literal[_Always, _WithInteractions]
 ``closed``: the trace is over.
 """
 
-Feature = Literal["", "policies", "interactions", "fragments", "attributes"]
+Feature = Literal["", "policies", "interactions", "extended", "fragments", "attributes"]
 """The feature that a scenario must use for a property to apply: none; where components have policies; where interactions are
-followed, because port elements have interfaces or components policies; where components are fragments, or have attributes.
+followed, because port elements have interfaces or components policies; where connectors of 10.4 are bound to types (``extended``);
+where components are fragments, or have attributes.
 """
 
 

@@ -18,6 +18,9 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_10_1_5,
     clause_10_1_6,
     clause_10_1_6_phases,
+    clause_10_4_1,
+    clause_10_4_1_2,
+    clause_10_4_1_2_responses,
     clause_11_2_1,
     clause_11_2_1_2,
     clause_11_2_2,
@@ -64,6 +67,8 @@ def features_of(scenario: s.Scenario) -> frozenset[Feature]:
     features: set[Feature] = set()
     if scenario.interfaces:
         features.add("interactions")
+    if scenario.types:
+        features.add("extended")
     for declaration in scenario.components.values():
         if declaration.policies:
             features.update(("policies", "interactions"))

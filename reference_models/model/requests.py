@@ -1,0 +1,180 @@
+"""Requests and responses of request-response connections (10.4.1), paired when the trace is over.
+
+A response may come before ``request`` has given out its identifier, and both sides may number requests in their own way. So
+entries of the server are paired with requests by their values, answers with entries by the server's identifier, and what
+comes back with answers by its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.platform_interfaces import REQUEST, REQUEST_RESPONSE, RESPONSE
+from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.reference_models.model.links import End, LinkState
+from ucm_cts.reference_models.model.messages import waited_for
+from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall, Operation
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Received, Requests
+from ucm_cts.reference_models.model.runtime import Member
+
+
+def all_requests(runtime: ObservedRuntime) -> list[Requests]:
+    """What happened through each request-response connection. The trace must be over."""
+    if runtime.requests is None:
+        links = [k for k in runtime.interactions.links.values() if k.connector == REQUEST_RESPONSE]
+        runtime.requests = [_paired(runtime, link) for link in links]
+    return runtime.requests
+
+
+def _paired(runtime: ObservedRuntime, link: LinkState) -> Requests:
+    found = Requests(link)
+    interactions = runtime.interactions
+    calls = [call for call in interactions.calls if call.link is link]
+    for call in calls:
+        client = _end_at(link, call.caller, call.request.port, call.request.n)
+        if client is not None and client.side == "client" and call.request.method == REQUEST:
+            found.asked.append(Asked(call, client))
+    for delivery in (d for d in interactions.deliveries if d.link is link):
+        end = _end_at(link, delivery.receiver, delivery.enter.port or "", delivery.enter.n)
+        if end is not None and end.side == "server" and delivery.enter.method == REQUEST:
+            found.received.append(Received(delivery, end))
+        elif end is not None and end.side == "client" and delivery.enter.method == RESPONSE:
+            found.callbacks.append(Callback(delivery, end))
+    _pair_entries(found)
+    _find_answers(found, calls)
+    _pair_callbacks(found)
+    return found
+
+
+def _end_at(link: LinkState, member: object, port: str, moment: int) -> End | None:
+    """The end that ``port`` of ``member`` was at that moment, or is still called at."""
+    ends = [end for end in link.ends if end.member is member and end.port == port and end.since < moment]
+    return max(ends, key=lambda end: end.since, default=None)
+
+
+def _pair_entries(found: Requests) -> None:
+    for received in found.received:
+        moment = received.delivery.enter.n
+        before = [a for a in found.asked if a.call.request.n < moment]
+        same = [a for a in before if a.value == received.value]
+        free = [a for a in same if not a.entries]
+        if free:
+            received.asked, received.fit = min(free, key=lambda a: _reasons_against(a, moment)), "same"
+        elif same:
+            received.asked, received.fit = same[-1], "repeated"
+        if received.asked is not None:
+            received.asked.entries.append(received)
+    for received in (r for r in found.received if r.asked is None):
+        moment = received.delivery.enter.n
+        lost = [a for a in found.asked if not a.entries and a.call.request.n < moment]
+        if lost:
+            received.asked, received.fit = lost[0], "altered"
+            lost[0].entries.append(received)
+
+
+def _reasons_against(asked: Asked, moment: int) -> tuple[bool, bool, int]:
+    """Reasons why a request does not belong to an entry at that moment: it had come back, or gave another code than ok."""
+    return (
+        asked.waits and asked.call.over < moment,
+        asked.call.reply is not None and not asked.is_ok,
+        asked.call.request.n,
+    )
+
+
+def _find_answers(found: Requests, calls: list[MethodCall]) -> None:
+    for received in found.received:
+        left = received.delivery.exit
+        results = left.results or () if left is not None and not left.failed else ()
+        if left is not None and received.server.is_synchronous and len(results) == 2:
+            received.answers.append(Answer(left, results[0], received))
+    for call in calls:
+        arguments = call.request.arguments or ()
+        if call.request.method != RESPONSE or len(arguments) != 2:
+            continue
+        moment = call.request.n
+        named = [r for r in found.received if r.number == arguments[1] and r.delivery.enter.n < moment]
+        open_ones = [r for r in named if not r.answers]
+        to = (open_ones or named)[-1] if named else None
+        answer = Answer(call, arguments[0], to, len(to.answers) + 1 if to is not None else 1)
+        if to is not None:
+            to.answers.append(answer)
+        else:
+            found.answers.append(answer)
+    found.answers += [answer for received in found.received for answer in received.answers]
+    found.answers.sort(key=lambda answer: answer.moment)
+
+
+def _pair_callbacks(found: Requests) -> None:
+    for callback in found.callbacks:
+        moment = callback.delivery.enter.n
+        given = [a for a in found.answers if a.moment < moment and a.value == callback.value]
+        own = [a for a in given if a.asked is not None and a.asked.client.is_of_port(callback.client)]
+        by_number = [a for a in own if a.asked is not None and a.asked.given == callback.number]
+        fresh = [a for a in (*by_number, *own) if not a.callbacks]
+        if fresh:
+            callback.answer, callback.fit = fresh[0], "own"
+        elif own:
+            callback.answer, callback.fit = own[-1], "repeated"
+        elif foreign := [a for a in given if a.asked is not None and not a.asked.waits]:
+            callback.answer, callback.fit = foreign[0], "foreign"
+        else:
+            _pair_by_number(found, callback)
+        if callback.answer is not None:
+            callback.answer.callbacks.append(callback)
+
+
+def _pair_by_number(found: Requests, callback: Callback) -> None:
+    """Its value is none that was given: is its identifier that of a request of this client that was answered before?"""
+    for answer in found.answers:
+        asked = answer.asked
+        answered = answer.moment < callback.delivery.enter.n and not answer.callbacks
+        if (
+            asked is not None
+            and answered
+            and asked.client.is_of_port(callback.client)
+            and asked.given == callback.number
+        ):
+            callback.answer, callback.fit = answer, "altered"
+            return
+
+
+def changes_between(runtime: ObservedRuntime, begin: int, end: int) -> Iterator[Operation]:
+    """Operations between these events that stop or remove components, undo connections, or break or mend them."""
+    return (
+        o
+        for o in runtime.interactions.changes
+        if (o.step.undoes or isinstance(o.step, s.Mend)) and o.overlaps(begin, end)
+    )
+
+
+def is_sound(runtime: ObservedRuntime, asked: Asked, until: int = NEVER) -> bool:
+    """Was everything in order from the request until that event: one server, all operational and attached in time, nothing broken?"""
+    call, link = asked.call, asked.call.link
+    if link is None or not link.is_proper or link.was_broken or not call.ready or not call.prepared:
+        return False
+    servers = {id(end.member) for end, _ in call.targets}
+    if len(servers) != 1 or not all(ready for _, ready in call.targets) or call.is_mistyped:
+        return False
+    return next(changes_between(runtime, call.request.n, until), None) is None
+
+
+def fails(end: End) -> bool:
+    """Does the plan of the component make it raise, or give another code than ok, where its methods are entered?"""
+    member = end.member
+    plan = member.declaration.plan.get("method", ())
+    codes = [a.results[-1] for a in plan if isinstance(a, s.Answer) and a.results and a.exception is None]
+    return member.raises("method") or any(code != "ok" for code in codes)
+
+
+def waited_in_vain(runtime: ObservedRuntime, member: Member, since: Event) -> bool:
+    """Was an entry of a method of ``member`` waited for in vain, with all patience, after the event ``since``?"""
+    gates = {a.gate for a in member.declaration.plan.get("method", ()) if isinstance(a, s.HoldAtGate)}
+    return any(
+        isinstance(wait.step, s.ReachGate)
+        and wait.step.gate in gates
+        and wait.timeout.n > since.n
+        and waited_for(runtime, wait.timeout, since.t)
+        for wait in runtime.interactions.waits
+    )
