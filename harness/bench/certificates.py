@@ -18,8 +18,7 @@ from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
 from ucm_cts.harness.bench.measuring import empty_table, limit
-from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.catalogue.requirements import load_requirements, requirements_of
 from ucm_cts.harness.certificates.verified import Uncovered
 from ucm_cts.harness.publishing.certificate import Certificate
 from ucm_cts.harness.publishing.pages import site_files
@@ -57,9 +56,7 @@ _CASES = {
 
 def certificates(number: int = NUMBER) -> list[Certificate]:
     """Made-up certificates of profile ``core``, in four versions each."""
-    verdicts = tuple(
-        PublishedVerdict(r.id, r.level, "pass") for r in load_requirements() if r.profile in PARTS["core"] and r.rules
-    )
+    verdicts = tuple(PublishedVerdict(r.id, r.level, "pass") for r in requirements_of("core") if r.rules)
     result = PublishedResult("", "", "core", "conformant", "0.1.0", verdicts)
     made = []
     for count in range(number):

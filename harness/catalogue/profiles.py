@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-FRAMEWORK_PROFILES = ("container", "core")
+FRAMEWORK_PROFILES = ("container", "core", "extensions")
 """Of running frameworks, behind an adapter."""
 
 TOOLCHAIN_PROFILES = ("pim", "idl", "cpp11", "cpp03")
 """Of tool chains, behind command lines."""
 
 PROFILES = (*FRAMEWORK_PROFILES, *TOOLCHAIN_PROFILES)
-"""What a run can choose; nothing of them is pending. What is filed under another name, as ``extensions``, is in the making."""
+"""What a run can choose; nothing is pending of what they ask for. Of ``extensions`` they ask for the parts that nothing is pending of."""
 
 PARTS: Mapping[str, tuple[str, ...]] = {
     "container": ("container",),
     "core": ("container", "core"),
+    "extensions": ("container", "core", "extensions"),
     "pim": ("pim",),
     "idl": ("idl",),
     "cpp11": ("cpp", "cpp11"),

@@ -39,6 +39,7 @@ class Requirement(Value, frozen=True):
     ``interpretations``: ids of entries in ``suite/interpretations``.
     ``profile``: the first profile that has it.
     ``pending``: what its property still needs.
+    ``part``: the part of profile extensions that it belongs to, which a vendor claims by itself.
     """
 
     id: str
@@ -53,6 +54,7 @@ class Requirement(Value, frozen=True):
     profile: str = "container"
     pending: str = ""
     derived: str = ""
+    part: str = ""
 
     @property
     def force(self) -> str:
@@ -94,11 +96,24 @@ def load_requirements() -> tuple[Requirement, ...]:
 
 
 @functools.cache
+def unfinished_parts() -> frozenset[str]:
+    """The parts of profile extensions of which some requirement is pending: no run asks for them, and nobody can claim them."""
+    return frozenset(r.part for r in load_requirements() if r.part and r.pending)
+
+
+@functools.cache
+def requirements_of(profile: str) -> tuple[Requirement, ...]:
+    """What a run of ``profile`` asks for, in the order of the clauses; nothing for an unknown one."""
+    families = PARTS.get(profile, ())
+    return tuple(r for r in load_requirements() if r.profile in families and r.part not in unfinished_parts())
+
+
+@functools.cache
 def in_the_making(profile: str) -> str:
-    """Why a run cannot choose ``profile`` yet; empty for a complete or unknown profile."""
+    """Why a run cannot choose ``profile`` yet; empty for an unknown profile, and for one that is complete as far as it goes."""
     requirements = [r for r in load_requirements() if r.profile in PARTS.get(profile, (profile,))]
     pending = sum(bool(r.pending) for r in requirements)
-    if not pending:
+    if not pending or requirements_of(profile):
         return ""
     return (
         f"profile '{profile}' is in the making: {pending} of its {len(requirements)} requirements are not checked yet; "
@@ -129,16 +144,21 @@ _INTERPRETATIONS = {
 
 
 def declarable() -> tuple[Interpretation, ...]:
-    """The decisions whose options a vendor can declare: not those of a profile in the making, which nothing reads yet."""
-    return tuple(entry for entry in load_interpretations() if not in_the_making(entry.profile))
+    """The decisions whose options a vendor can declare: not those of parts in the making, which nothing reads yet."""
+    asked = {name for r in requirements_of("extensions") for name in r.interpretations}
+    return tuple(entry for entry in load_interpretations() if entry.profile != "extensions" or entry.id in asked)
 
 
 class Capability(Value, frozen=True):
-    """A part of 10.1 that a vendor claims or leaves out; ``text`` says what it is."""
+    """A part of the platform that a vendor claims or leaves out; ``text`` says what it is.
+
+    Those of profile ``core`` are claimed unless the vendor says otherwise, those of ``extensions`` are not.
+    """
 
     id: str
     clause: str
     text: str
+    profile: Literal["core", "extensions"] = "core"
 
 
 class Need(Value, frozen=True):
@@ -155,14 +175,22 @@ class Need(Value, frozen=True):
 
 
 class Capabilities(Value, frozen=True):
-    """The parts of 10.1, and what requirements need of them."""
+    """The parts of the platform, and what requirements need of them."""
 
     capabilities: tuple[Capability, ...]
     needs: tuple[Need, ...]
 
     def of(self, requirement: str) -> list[Need]:
         """What ``requirement`` needs; nothing for one that always applies."""
-        return [n for n in self.needs if any(fnmatch.fnmatchcase(requirement, p) for p in n.requirements)]
+        found = [n for n in self.needs if any(fnmatch.fnmatchcase(requirement, p) for p in n.requirements)]
+        part = _parts().get(requirement)
+        return [*([Need((requirement,), (part,))] if part is not None else []), *found]
+
+
+@functools.cache
+def _parts() -> Mapping[str, str]:
+    """The part of profile extensions that a requirement belongs to, by its id; none in the making."""
+    return {r.id: r.part for r in requirements_of("extensions") if r.part}
 
 
 @functools.cache

@@ -12,8 +12,7 @@ import msgspec
 import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
-from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, load_requirements
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, requirements_of
 from ucm_cts.harness.certificates.problems import unreadable
 from ucm_cts.harness.execution import leftovers
 from ucm_cts.harness.execution.record import Answered, Record, Repeated
@@ -37,7 +36,7 @@ def judged_by_this_suite(
     """The report that the rules of this suite give on the traces of ``record``. Raises ``Unreadable``."""
     today = fitted(statement)
     monitor = Monitor(load_life_cycle(), today.ics)
-    requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
+    requirements = list(requirements_of(profile))
     tally = Tally()
     check_statement(today, profile, requirements, tally)
     repeats: dict[str, list[frozenset[str]]] = defaultdict(list)

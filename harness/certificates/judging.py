@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import msgspec
 
-from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
-from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.requirements import requirements_of
 from ucm_cts.harness.certificates.contents import Claims
 from ucm_cts.harness.certificates.delta import NOT_FROM_TRACES, judged_by_this_suite
 from ucm_cts.harness.certificates.problems import Problem, unreadable
@@ -121,5 +121,5 @@ def _with_old(shown: ReportEntry, old: ReportEntry | None) -> ReportEntry:
 
 def entry_of(report: Report) -> ReportEntry:
     """``report.json`` of ``report``, as a value."""
-    catalogue = [r for r in load_requirements() if r.profile in PARTS[report.profile]]
+    catalogue = requirements_of(report.profile)
     return msgspec.json.decode(to_json(clean_report(report), catalogue), type=ReportEntry)

@@ -18,7 +18,7 @@ import msgspec
 import ucm_cts
 from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.profiles import PARTS, PROFILES, TOOLCHAIN_PROFILES
-from ucm_cts.harness.catalogue.requirements import load_interpretations, load_requirements
+from ucm_cts.harness.catalogue.requirements import load_interpretations, requirements_of
 from ucm_cts.harness.certificates import archive
 from ucm_cts.harness.certificates.comparing import ON_THE_SIGNERS_WORD, differences, inconsistencies
 from ucm_cts.harness.certificates.contents import CATALOGUE_FILES, SUITE_FILES, Claims, digest
@@ -364,7 +364,7 @@ def _uncovered(contents: Contents, report: ReportEntry | None) -> Uncovered:
     statement = contents.statement
     options = [option for i in load_interpretations() if i.profile in parts for option in i.options]
     return Uncovered(
-        untestable=tuple(r.id for r in load_requirements() if r.profile in parts and (r.untestable or r.pending)),
+        untestable=tuple(r.id for r in requirements_of(report.profile) if r.untestable),
         not_applicable=tuple(entry.id for entry in report.requirements if entry.verdict == "not applicable"),
         waivers=tuple(Waiver(w.requirement, one_line(w.reason), w.expires) for w in contents.waivers or ()),
         undeclared=tuple(o for o in options if statement is not None and statement.readings.get(o) == "observed"),

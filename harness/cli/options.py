@@ -115,7 +115,10 @@ def out_file(default: str, text: str) -> Callable[[F], F]:
 
 adapter_argument = click.argument("adapter", default="", required=False)
 _PROFILE_HELP = "What to check: "
-_OF_FRAMEWORKS = "container is clauses 11 and 12.10, the life cycle and the Container API; core adds 10.1, connections"
+_OF_FRAMEWORKS = (
+    "container is clauses 11 and 12.10, the life cycle and the Container API; core adds 10.1, connections; extensions adds the parts "
+    "of 10.2 to 10.5 that the statement claims"
+)
 profile_option = click.option(
     "--profile",
     type=Profile(PROFILES),

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 
 import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
 from ucm_cts.harness.execution import leftovers
 from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, timed_requirements
@@ -65,7 +64,7 @@ class Campaign:
         self.statement = statement or default_statement()
         self.checked: list[TestPurpose] = []
         self._monitor = Monitor(load_life_cycle(), self.statement.ics)
-        self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
+        self._requirements = list(requirements_of(profile))
         self._tally = Tally()
         check_statement(self.statement, profile, self._requirements, self._tally)
         self._confirmation = Confirmation(driver, self._monitor, driver.gaps)

@@ -1,7 +1,8 @@
-"""Finds the declarations of 10.1 in a framework's models and compares them, fact by fact, with those of the suite."""
+"""Finds the declarations of clause 10 in a framework's models and compares them, fact by fact, with those of the suite."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, MutableMapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -34,7 +35,10 @@ class Reading(Value, frozen=True):
 
 
 class Declaration(Value, frozen=True):
-    """The place of a requirement's declaration in the suite's own files."""
+    """The place of a requirement's declaration in the suite's own files.
+
+    ``within``: the requirement speaks of everything inside, too, that no other entry names.
+    """
 
     requirement: str
     file: str
@@ -42,6 +46,21 @@ class Declaration(Value, frozen=True):
     optional: bool = False
     readings: tuple[Reading, ...] = ()
     beyond: dict[str, str] = {}
+    within: bool = False
+
+
+@dataclass(frozen=True)
+class Conventions:
+    """How the declarations of one catalogue are compared.
+
+    ``root_option``, ``at_root``: the option that says where modules stand, and its value for the root.
+    ``general``: the requirements that speak of further children of a kind, and under "" of all others; without one the requirement
+    of the declaration does.
+    """
+
+    root_option: str
+    at_root: str
+    general: Mapping[str, str]
 
 
 _CHILDREN: Mapping[str, tuple[str, ...]] = {
@@ -59,8 +78,6 @@ _CHILDREN: Mapping[str, tuple[str, ...]] = {
 """Children that count: one more than 10.1 has is too many. All others are free."""
 
 _INHERITING = ("extends", "inheritedInterface")
-_SPEAKS_OF = {"ConfigurationParameter": "R-10.1-02", "NativeType": "R-10.1.1-02", "Attribute": "R-10.1.1-05"}
-_SPEAKS_OF_ALL_OTHERS = "R-10.1-03"
 _ORDERED = ("Parameter", "StructureField", "Enumerator")
 _REFERENCES = words("technicalAspect interface type item pattern portRole api interactionItem connectorItem indexType")
 
@@ -79,14 +96,22 @@ _KEPT = Fact("kept")
 
 @dataclass
 class Comparing:
-    """One comparison: ``facts`` are filed by requirement and by what they are about; ``claims`` has every option."""
+    """One comparison: ``facts`` are filed by requirement and by what they are about; ``claims`` has every option.
+
+    If a requirement speaks of several declarations, the path of each stands before what its facts are about.
+    """
 
     declarations: Mapping[Element, Declaration]
     claims: MutableMapping[str, str]
+    conventions: Conventions
     facts: dict[str, dict[str, Fact]] = field(default_factory=dict)
     readings: dict[str, set[str]] = field(default_factory=dict)
     declared: dict[tuple[str, ...], list[Element]] = field(default_factory=dict)
     printed: set[tuple[str, ...]] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        times = Counter(d.requirement for d in self.declarations.values())
+        self.shared = {requirement for requirement, number in times.items() if number > 1}
 
     def compare(self, ours: Element, root: Element, core: Element) -> None:
         """Compare what is declared at the ``root`` and below ``core`` with ``ours``."""
@@ -100,26 +125,27 @@ class Comparing:
 
     def _merged(self, ours: Element, root: Element, core: Element) -> Element:
         """One root for what the vendor may declare in two places."""
-        claim = self.claims["core-root"]
+        option, at_root = self.conventions.root_option, self.conventions.at_root
+        claim = self.claims[option]
         merged = Element("", {})
         if claim != "core":
             merged.children += root.children
-        if claim != "none":
+        if claim != at_root:
             there = {(c.tag, c.name) for c in merged.children}
             merged.children += [c for c in core.children if (c.tag, c.name) not in there]
         for module in ours.children:
             places = [
                 [c for c in tree.children if (c.tag, c.name) == (module.tag, module.name)] for tree in (root, core)
             ]
-            met = {(True, True): "both", (True, False): "none", (False, True): "core"}.get(
+            met = {(True, True): "both", (True, False): at_root, (False, True): "core"}.get(
                 (bool(places[0]), bool(places[1]))
             )
             if met and claim in (met, "observed"):
-                self.readings.setdefault("core-root", set()).add(met)
+                self.readings.setdefault(option, set()).add(met)
             requirement = self.declarations[module].requirement
             if all(places) and claim in ("both", "observed") and not _same(places[0][0], places[1][0]):
                 self._note(requirement, "place", "one declaration", f"{module.name} differs from core::{module.name}")
-            elif claim == "both" and met in ("none", "core"):
+            elif claim == "both" and met in (at_root, "core"):
                 self._note(
                     requirement, "place", "two paths to it", f"{module.name} at {places[met == 'core'][0].where} only"
                 )
@@ -149,7 +175,7 @@ class Comparing:
             for child in ours.children:
                 self._declaration(child, None)
             return None
-        self._file(declaration.requirement, "there", _KEPT)
+        self._file(declaration.requirement, self._about(ours, "there"), _KEPT)
         self._kind(ours, theirs, declaration.requirement)
         self._attributes(ours, theirs, declaration, readings)
         pairs = [(child, self._declaration(child, theirs)) for child in ours.children]
@@ -160,7 +186,7 @@ class Comparing:
             expected, observed = (", ".join(e.name for e in elements) for elements in (found, there))
             self._note(
                 declaration.requirement,
-                "order",
+                self._about(ours, "order"),
                 f"the order {expected}",
                 f"{observed} ({theirs.where})",
                 found == there,
@@ -182,20 +208,20 @@ class Comparing:
             status: Status = "unclear" if strange is not None else "broken"
             hint = f", but there is {strange.tag} ({strange.where})" if strange is not None else ""
             fact = Fact(status, f"{what} in {inside}", f"it is missing{hint}")
-        self._file(declaration.requirement, "there", fact)
+        self._file(declaration.requirement, self._about(ours, "there"), fact)
 
     def _kind(self, ours: Element, theirs: Element, requirement: str) -> None:
         fact = _KEPT
         if theirs.tag != ours.tag:
             status: Status = "broken" if theirs.tag in KNOWN_TAGS else "unclear"
             fact = Fact(status, f"{ours.tag} {ours.name}", f"{theirs.tag} {theirs.name} ({theirs.where})")
-        self._file(requirement, "is", fact)
+        self._file(requirement, self._about(ours, "is"), fact)
         assert theirs.parent is not None
         twins = [c for c in theirs.parent.children if ours.name and (c.tag, c.name) == (theirs.tag, theirs.name)]
         differing = [c for c in twins if not _same(c, theirs)]
         if differing:
             observed = f"{theirs.name} is declared twice, differently ({theirs.where}, {differing[0].where})"
-            self._note(requirement, "twin", "one declaration", observed)
+            self._note(requirement, self._about(ours, "twin"), "one declaration", observed)
 
     def _attributes(self, ours: Element, theirs: Element, declaration: Declaration, readings: list[Reading]) -> None:
         expected, direct = dict(ours.attributes), set[str]()
@@ -220,7 +246,7 @@ class Comparing:
                 text = f"{attribute} {there}" if there else f"no {attribute}" if value else ""
                 status: Status = "unclear" if strange or theirs.tag not in KNOWN_TAGS else "broken"
                 fact = Fact(status, f"{attribute} {value}" if value else f"no {attribute}", f"{text} ({theirs.where})")
-            self._file(declaration.requirement, attribute, fact)
+            self._file(declaration.requirement, self._about(ours, attribute), fact)
 
     def _equal(self, attribute: str, value: str, ours: Element, theirs: Element, direct: bool) -> bool:
         there = theirs.attributes.get(attribute, "")
@@ -249,14 +275,21 @@ class Comparing:
         for tag in _CHILDREN.get(ours.tag, ()):
             strangers = [c for c in theirs.children if c.tag == tag and c not in found and (tag, c.name) not in names]
             wanted = sum(o.tag == tag and t is None and not self._may_be_missing(o) for o, t in pairs)
-            requirement = declaration.beyond.get(tag) or _SPEAKS_OF.get(tag, _SPEAKS_OF_ALL_OTHERS)
+            general = self.conventions.general
+            requirement = declaration.beyond.get(tag) or general.get(tag) or general.get("") or declaration.requirement
             text = ", ".join(f"{tag} {c.name} ({c.where})" for c in strangers)
             self._note(requirement, f"{place} {tag}", f"no further {tag} in {place}", text, len(strangers) <= wanted)
         if ours.tag in ("Interface", "TechnicalPolicyDefinition"):
             for attribute in _INHERITING:
                 parent = theirs.attributes.get(attribute, "")
                 text = f"{attribute} {parent} ({theirs.where})"
-                self._note(_SPEAKS_OF_ALL_OTHERS, f"{place} {attribute}", f"{place} inherits nothing", text, not parent)
+                all_others = self.conventions.general.get("") or declaration.requirement
+                self._note(all_others, f"{place} {attribute}", f"{place} inherits nothing", text, not parent)
+
+    def _about(self, ours: Element, what: str) -> str:
+        if self.declarations[ours].requirement not in self.shared:
+            return what
+        return f"{'::'.join(ours.path)}{ours.attributes.get('item', '')} {what}"
 
     def _may_be_missing(self, ours: Element) -> bool:
         return any(r.missing and self._accepts(r) for r in self.declarations[ours].readings)
@@ -282,12 +315,27 @@ def _match(ours: Element, scope: Element, readings: list[Reading]) -> Element | 
     """The child of ``scope`` that is meant to be ``ours``: by kind and name, else by a name that nothing else has."""
     same_kind = [c for c in scope.children if c.tag == ours.tag]
     if not ours.name:
-        return same_kind[0] if same_kind else None
+        return _match_nameless(ours, same_kind)
     names = {r.attributes.get("name", ours.name) for r in readings if not r.missing} or {ours.name}
     assert ours.parent is not None
     siblings = {(o.tag, o.name) for o in ours.parent.children}
     others = [c for c in scope.children if (c.tag, c.name) not in siblings]
     return next((c for c in (*same_kind, *others) if c.name in names), None)
+
+
+def _match_nameless(ours: Element, same_kind: list[Element]) -> Element | None:
+    """The one about the same item; else the first that is about no item that ``ours`` has in another element of this kind."""
+    assert ours.parent is not None
+    about = {_item_of(o) for o in ours.parent.children if o.tag == ours.tag}
+    meant = [c for c in same_kind if _item_of(c) == _item_of(ours)]
+    others = [c for c in same_kind if len(about) == 1 or _item_of(c) not in about]
+    return next(iter((*meant, *others)), None)
+
+
+def _item_of(element: Element) -> str:
+    """The item that a nameless element is about, by its own name."""
+    reference = element.attributes.get("item") or element.attributes.get("interactionItem", "")
+    return (_segments(reference) or ("",))[-1]
 
 
 def _may_be(ours: Element, child: Element) -> bool:

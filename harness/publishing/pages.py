@@ -27,6 +27,7 @@ FILES = (
 PROFILES_IN_WORDS = {
     "container": "life cycle, containers and their API (clauses 11 and 12.10)",
     "core": "container, and the interaction patterns and services of clause 10.1",
+    "extensions": "core, and those parts of clauses 10.2 to 10.5 that the vendor claims",
     "pim": "models are checked as clause 9 says",
     "idl": "IDL is generated as clause 12 says",
     "cpp11": "C++11 is generated as clause 13 says",

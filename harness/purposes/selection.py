@@ -7,11 +7,12 @@ import functools
 from collections.abc import Callable, Iterable
 
 from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, load_requirements
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, requirements_of
 from ucm_cts.harness.purposes.data.scenarios import data_purposes
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.derived.messages import message_purposes
+from ucm_cts.harness.purposes.derived.request_response import request_purposes
 from ucm_cts.harness.purposes.derived.schedules import crowd_purposes, overlap_purposes
 from ucm_cts.harness.purposes.derived.services import service_purposes
 from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
@@ -36,6 +37,9 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     functools.partial(purposes_of, "port_traces"),
 )
 """Where the purposes of profile core come from, beside scripts, dimensions and those of data types."""
+
+_EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (request_purposes,)
+"""Where those of profile extensions come from."""
 
 _DIMENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (
     provocation_purposes,
@@ -94,12 +98,16 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
 
 @functools.cache
 def _combined(profile: str) -> tuple[TestPurpose, ...]:
-    return tuple(purpose for source in _CORE for purpose in source()) if "core" in PARTS[profile] else ()
+    sources = (
+        *(_CORE if "core" in PARTS[profile] else ()),
+        *(_EXTENSIONS if "extensions" in PARTS[profile] else ()),
+    )
+    return tuple(purpose for source in sources for purpose in source())
 
 
 @functools.cache
 def _written(profile: str) -> tuple[TestPurpose, ...]:
-    clauses = {r.id: r.clause for r in load_requirements() if r.profile in PARTS[profile]}
+    clauses = {r.id: r.clause for r in requirements_of(profile)}
     probes = load_probe_types()
     scripted = (
         TestPurpose(

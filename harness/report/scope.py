@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import Requirement, load_requirements
+from ucm_cts.harness.catalogue.requirements import Requirement, requirements_of
 from ucm_cts.harness.catalogue.specification import Specification, load_specification
 from ucm_cts.harness.purposes.selection import words_of
 from ucm_cts.harness.results.values import Report
@@ -40,7 +39,7 @@ class Scope(Value, frozen=True):
 def scope_of(report: Report, catalogue: Sequence[Requirement] | None = None) -> Scope:
     """The scope of ``report``; ``catalogue`` has the requirements of its profile, those of this suite if it is not given."""
     if catalogue is None:
-        catalogue = [r for r in load_requirements() if r.profile in PARTS.get(report.profile, ())]
+        catalogue = requirements_of(report.profile)
     reported = {result.id for result in report.requirements}
     left_out = sum(result.verdict == "not applicable" for result in report.requirements)
     words = words_of(report.selection)

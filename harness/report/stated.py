@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from ucm_cts.harness.catalogue.requirements import (
     Capability,
     Interpretation,
+    declarable,
     load_capabilities,
-    load_interpretations,
 )
 from ucm_cts.harness.results.statement import IXIT, Quantity, Statement
 
@@ -18,7 +18,7 @@ from ucm_cts.harness.results.statement import IXIT, Quantity, Statement
 class Stated:
     """Everything of a statement that concerns one profile.
 
-    ``parts``: each part of 10.1, and whether it is claimed.
+    ``parts``: each part of the platform, and whether it is claimed.
     ``options``: each option, its value, the values that were observed, and its interpretation.
     ``quantities``: each quantity of the IXIT, its value, and its definition.
     """
@@ -32,10 +32,14 @@ def stated(statement: Statement, readings: Mapping[str, tuple[str, ...]], profil
     """What ``statement`` says as far as it concerns the ``profiles``, and the ``readings`` that were observed."""
     core = "core" in profiles
     return Stated(
-        [(c, statement.capabilities.get(c.id, True)) for c in load_capabilities().capabilities if core],
+        [
+            (c, statement.capabilities.get(c.id, c.profile == "core"))
+            for c in load_capabilities().capabilities
+            if core and c.profile in profiles
+        ],
         [
             (option, statement.readings.get(option, values[0]), readings.get(option, ()), entry)
-            for entry in load_interpretations()
+            for entry in declarable()
             if entry.profile in profiles
             for option, values in entry.options.items()
         ],

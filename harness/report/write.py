@@ -9,12 +9,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import (
     Requirement,
     load_interpretations,
     load_life_cycle,
-    load_requirements,
+    requirements_of,
 )
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.html import to_html
@@ -109,7 +108,7 @@ def _save(files: Mapping[str, bytes], out: Path) -> None:
 def report_files(report: Report) -> dict[str, bytes]:
     """All files of ``report``, by their names, with what the suite's own catalogue has for its profile."""
     decisions = {i.id: " ".join(i.lines) for i in load_interpretations()}
-    catalogue = [r for r in load_requirements() if r.profile in PARTS[report.profile]]
+    catalogue = requirements_of(report.profile)
     return made_files(report, catalogue, load_life_cycle(), decisions)
 
 

@@ -1,6 +1,7 @@
 """The vendor's statement: which parts are claimed and which readings taken (ICS), which times and tolerances hold (IXIT).
 
-What the vendor does not state is as in ``default_statement``: everything is claimed, and the first value of every option holds.
+What the vendor does not state is as in ``default_statement``: all of 10.1 is claimed, nothing of 10.2 to 10.5, and the first value of
+every option holds.
 """
 
 from __future__ import annotations
@@ -94,6 +95,13 @@ class Statement(Value, frozen=True):
         """Every reading, as ``option=value``."""
         return tuple(f"{option}={value}" for option, value in self.readings.items())
 
+    @property
+    def extensions(self) -> tuple[str, ...]:
+        """The parts of 10.2 to 10.5 that are claimed."""
+        return tuple(
+            c.id for c in load_capabilities().capabilities if c.profile == "extensions" and self.capabilities[c.id]
+        )
+
     def meets(self, need: str) -> bool:
         """Is ``need`` claimed (a capability) or declared (a reading as ``option=value``, with ``|`` between permitted values)?"""
         option, _, values = need.partition("=")
@@ -107,7 +115,7 @@ def default_statement() -> Statement:
         product="",
         version="",
         profiles=tuple(PARTS),
-        capabilities={c.id: True for c in load_capabilities().capabilities},
+        capabilities={c.id: c.profile == "core" for c in load_capabilities().capabilities},
         readings={option: values[0] for option, values in load_options().items()},
         ixit={name: quantity.default for name, quantity in IXIT.items()},
     )

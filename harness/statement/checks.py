@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import Requirement
+from ucm_cts.harness.catalogue.requirements import Requirement, load_capabilities
 from ucm_cts.harness.models.core_models import compare
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Tally
@@ -21,13 +21,14 @@ def check_statement(statement: Statement, profile: str, requirements: Sequence[R
             tally.settle(requirement.id, *unmet)
     if "core" not in PARTS[profile]:
         return
-    for part, claimed in statement.capabilities.items():
-        if not claimed:
-            tally.deny(_left_out(part, statement))
+    for capability in load_capabilities().capabilities:
+        if capability.profile == "core" and not statement.capabilities[capability.id]:
+            tally.deny(_left_out(capability.id, statement))
     for requirement_id, parts in lacking_claims(statement, profile).items():
         tally.explain(requirement_id, f"all scenarios that are to exercise it ask for what is not claimed: {parts}")
     if statement.meets("core-models=shipped"):
-        tally.add_models(compare(statement.model_paths, statement.readings))
+        claimed = statement.extensions if "extensions" in PARTS[profile] else ()
+        tally.add_models(compare(statement.model_paths, statement.readings, claimed))
 
 
 def _left_out(part: str, statement: Statement) -> Finding:

@@ -7,15 +7,15 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PARTS
-from ucm_cts.harness.catalogue.requirements import load_options, load_requirements
+from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
+from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options, requirements_of
 from ucm_cts.harness.results.statement import HOOKS, IMPOSSIBLE, Statement, default_statement
 from ucm_cts.harness.statement.applicability import lines_for
 
 
 @dataclass(frozen=True)
 class Offer:
-    """Whether an adapter offers a part of 10.1, or an operation for tests.
+    """Whether an adapter offers a part of the platform, or an operation for tests.
 
     ``lacking``: how it shows that it does not; empty if it offers it.
     ``readings``: what must be declared with it.
@@ -42,12 +42,16 @@ def claimed(known: Statement, offers: Offers, wanted: str = "") -> Statement:
                 readings[option] = value
         if name in HOOKS and readings[name] != IMPOSSIBLE:
             readings[name] = "none" if offer.lacking else "hook"
-    capabilities = {name: on and not _lacks(offers, name) for name, on in known.capabilities.items()}
+    parts = load_capabilities().capabilities
+    capabilities = {p.id: known.capabilities[p.id] and not _lacks(offers, p.id) for p in parts if p.profile == "core"}
+    extended = {p.id: p.id in offers and not offers[p.id].lacking for p in parts if p.profile == "extensions"}
+    whole = all(capabilities.values())
     if wanted:
         profiles = FRAMEWORK_PROFILES[: FRAMEWORK_PROFILES.index(wanted) + 1]
     else:
-        whole = all(capabilities.values())
-        profiles = tuple(p for p in FRAMEWORK_PROFILES if p in known.profiles and (p != "core" or whole))
+        can = {"container": True, "core": whole, "extensions": whole and any(extended.values())}
+        profiles = tuple(p for p in FRAMEWORK_PROFILES if p in known.profiles and can[p])
+    capabilities |= extended if "extensions" in profiles else dict.fromkeys(extended, False)
     return msgspec.structs.replace(known, readings=readings, capabilities=capabilities, profiles=profiles)
 
 
@@ -62,11 +66,10 @@ def to_decide(statement: Statement, asked: Mapping[str, frozenset[str]]) -> Mapp
     ``asked`` are further such options, with requirements of any profile. An operation for tests is not the vendor's to declare
     but the adapter's to offer, unless there may be nothing to test. What is declared, is decided.
     """
-    parts = {part for profile in statement.profiles for part in PARTS[profile]}
     options = load_options()
     found: dict[str, set[str]] = {}
-    for requirement in load_requirements():
-        if requirement.profile not in parts or requirement.untestable:
+    for requirement in dict.fromkeys(r for profile in statement.profiles for r in requirements_of(profile)):
+        if requirement.untestable:
             continue
         lines = lines_for(requirement, statement)
         if any(not line.option for line in lines):  # a part of 10.1 is left out, so it does not apply anyway

@@ -10,7 +10,7 @@ from typing import Any, NoReturn, Protocol
 
 from ucm_cts.harness.catalogue.documents import DocumentError, read_toml
 from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import load_options
+from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options
 from ucm_cts.harness.hosting.locate import WrongUse, published_statement
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.statement import IXIT, Statement, default_statement
@@ -54,6 +54,13 @@ def check_subject(statement: Statement, identity: Identity, profile: str) -> Non
         raise WrongUse(
             f"{_place(statement, 'profiles')} does not claim profile '{profile}'; it claims {claimed}; run one of these with "
             f"--profile, or add '{profile}' to profiles"
+        )
+
+    if profile == "extensions" and not statement.extensions:
+        parts = [c.id for c in load_capabilities().capabilities if c.profile == "extensions"]
+        raise WrongUse(
+            f"{statement.source or 'the default statement'} claims no part of profile extensions; claim one in a statement, under "
+            f"[capabilities], as '{parts[0]} = true' (there is {', '.join(parts)}): 'ucm-cts ics' asks the adapter for them"
         )
 
 

@@ -14,7 +14,7 @@ import msgspec
 import ucm_cts
 from ucm_cts.harness.catalogue.documents import without_waiting
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PARTS, TOOLCHAIN_PROFILES
-from ucm_cts.harness.catalogue.requirements import Interpretation, load_capabilities, load_interpretations
+from ucm_cts.harness.catalogue.requirements import Interpretation, declarable, load_capabilities
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.statement import HOOKS, IXIT, Statement, default_statement
@@ -111,8 +111,9 @@ def to_toml(statement: Statement, adapter: str, file: str) -> str:
         suite=f"UCM-CTS {ucm_cts.__version__}",
         profiles=profiles,
         of_framework=FRAMEWORK_PROFILES in families,
-        capabilities=load_capabilities().capabilities,
-        entries=[entry for entry in load_interpretations() if entry.options and entry.profile in parts],
+        capabilities=[c for c in load_capabilities().capabilities if c.profile == "core"],
+        extensions=[c for c in load_capabilities().capabilities if c.profile == "extensions"],
+        entries=[entry for entry in declarable() if entry.options and entry.profile in parts],
         ixit=IXIT,
     )
 
@@ -133,7 +134,7 @@ def to_short_toml(
     parts = {part for profile in statement.profiles for part in PARTS[profile]}
     family = TOOLCHAIN_PROFILES if {*statement.profiles} <= {*TOOLCHAIN_PROFILES} else FRAMEWORK_PROFILES
     waiting = to_decide(statement, asked or {})
-    options = {o: (entry, values) for entry in load_interpretations() for o, values in entry.options.items()}
+    options = {o: (entry, values) for entry in declarable() for o, values in entry.options.items()}
     of_profiles = {option: known for option, known in options.items() if known[0].profile in parts}
     different = {o: v for o, (_, v) in of_profiles.items() if statement.readings[o] != default.readings[o]}
     offered = [o for o in different if o in HOOKS and statement.readings[o] == "hook"]
@@ -149,7 +150,12 @@ def to_short_toml(
         profiles=family,
         remarks=_remarks(statement, missing, family),
         capabilities=[
-            c for c in load_capabilities().capabilities if "core" in parts and not statement.capabilities[c.id]
+            c
+            for c in load_capabilities().capabilities
+            if c.profile == "core" and "core" in parts and not statement.capabilities[c.id]
+        ],
+        extensions=[
+            c for c in load_capabilities().capabilities if "extensions" in parts and c.id in statement.extensions
         ],
         lacking=missing,
         offered=offered,

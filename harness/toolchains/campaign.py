@@ -14,8 +14,7 @@ from typing import Protocol
 import msgspec
 
 import ucm_cts
-from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.catalogue.requirements import requirements_of
 from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Tally, overall
@@ -103,7 +102,7 @@ class ToolChainCampaign:
         self._tally = Tally()
         self._seconds: dict[str, float] = {}
         self.is_judged = False
-        self._requirements = [r for r in load_requirements() if r.profile in PARTS[plan.profile]]
+        self._requirements = list(requirements_of(plan.profile))
         self._measures: Counter[str] = Counter()
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")

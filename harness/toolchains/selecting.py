@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from ucm_cts.harness.catalogue.profiles import PARTS
-from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.catalogue.requirements import requirements_of
 from ucm_cts.harness.purposes.selection import words_of
 from ucm_cts.harness.results.tally import of_selection
 from ucm_cts.harness.results.values import ToolChainReport
@@ -14,7 +13,7 @@ from ucm_cts.harness.toolchains.campaign import ToolChainCampaign
 
 def testable(profile: str) -> tuple[str, ...]:
     """The requirements of ``profile`` that a run can decide, by id."""
-    return tuple(r.id for r in load_requirements() if r.profile in PARTS[profile] and not r.untestable)
+    return tuple(r.id for r in requirements_of(profile) if not r.untestable)
 
 
 def named(ids: Collection[str], expression: str) -> frozenset[str]:
