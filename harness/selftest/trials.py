@@ -44,6 +44,9 @@ COMPARED = 25
 LIMITS = Limits(seconds=3, incident_seconds=20)
 """What a trial waits for a mutant that hangs."""
 
+_OF_EXTENSIONS = ("10.2", "10.3", "10.4", "10.5")
+"""Clauses of profile extensions."""
+
 _DERIVED = "ucm_cts.adapters.mutants.python"
 
 Shown = tuple[Finding, Execution]
@@ -191,7 +194,8 @@ class _Trial:
 def _run(subject: Subject, how: Thoroughness) -> _Trial:
     ran = _Trial(how.seed)
     began = time.monotonic()
-    profile = "core" if how.whole or subject.clauses != CONTAINER else "container"
+    is_extended = subject.clauses[0].startswith(_OF_EXTENSIONS)
+    profile = "extensions" if is_extended else "core" if how.whole or subject.clauses != CONTAINER else "container"
     statement = _statement(subject)
     try:
         with _being(subject), Driver(locate(subject.adapter), how.seed, LIMITS) as driver:

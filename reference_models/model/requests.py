@@ -61,7 +61,7 @@ def _pair_entries(found: Requests) -> None:
         same = [a for a in before if a.value == received.value]
         free = [a for a in same if not a.entries]
         if free:
-            received.asked, received.fit = min(free, key=lambda a: _reasons_against(a, moment)), "same"
+            received.asked, received.fit = min(free, key=lambda a: _reasons_against(a, received)), "same"
         elif same:
             received.asked, received.fit = same[-1], "repeated"
         if received.asked is not None:
@@ -70,17 +70,18 @@ def _pair_entries(found: Requests) -> None:
         moment = received.delivery.enter.n
         lost = [a for a in found.asked if not a.entries and a.call.request.n < moment]
         if lost:
-            received.asked, received.fit = lost[0], "altered"
-            lost[0].entries.append(received)
+            received.asked, received.fit = min(lost, key=lambda a: _reasons_against(a, received)), "altered"
+            received.asked.entries.append(received)
 
 
-def _reasons_against(asked: Asked, moment: int) -> tuple[bool, bool, int]:
-    """Reasons why a request does not belong to an entry at that moment: it had come back, or gave another code than ok."""
-    return (
-        asked.waits and asked.call.over < moment,
-        asked.call.reply is not None and not asked.is_ok,
-        asked.call.request.n,
-    )
+def _reasons_against(asked: Asked, received: Received) -> tuple[bool, bool, bool, int]:
+    """Reasons why a request does not belong to an entry with its value: it had come back, gave another code than ok, or has another
+    identifier; earlier ones come first.
+    """
+    had_come_back = asked.waits and asked.call.over < received.delivery.enter.n
+    refused = asked.call.reply is not None and not asked.is_ok
+    other = not asked.waits and received.number is not None and asked.given != received.number
+    return had_come_back, refused, other, asked.call.request.n
 
 
 def _find_answers(found: Requests, calls: list[MethodCall]) -> None:
@@ -168,13 +169,13 @@ def fails(end: End) -> bool:
     return member.raises("method") or any(code != "ok" for code in codes)
 
 
-def waited_in_vain(runtime: ObservedRuntime, member: Member, since: Event) -> bool:
-    """Was an entry of a method of ``member`` waited for in vain, with all patience, after the event ``since``?"""
+def overdue_since(runtime: ObservedRuntime, member: Member, since: Event) -> int:
+    """The event at which an entry of a method of ``member`` had been waited for in vain, with all patience, after the event
+    ``since``; 0 if there is none.
+    """
     gates = {a.gate for a in member.declaration.plan.get("method", ()) if isinstance(a, s.HoldAtGate)}
-    return any(
-        isinstance(wait.step, s.ReachGate)
-        and wait.step.gate in gates
-        and wait.timeout.n > since.n
-        and waited_for(runtime, wait.timeout, since.t)
-        for wait in runtime.interactions.waits
-    )
+    for wait in runtime.interactions.waits:
+        is_for_it = isinstance(wait.step, s.ReachGate) and wait.step.gate in gates
+        if is_for_it and wait.timeout.n > since.n and waited_for(runtime, wait.timeout, since.t):
+            return wait.timeout.n
+    return 0

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
-from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS, REQUEST_RESPONSE, named_interfaces
+from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS, REQUEST, REQUEST_RESPONSE, named_interfaces
 from ucm_cts.adapters.contract.trace import Raise, Return
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.designation import designation
-from ucm_cts.reference_models.model.links import LinkState, element_names
+from ucm_cts.reference_models.model.links import End, LinkState, element_names
 from ucm_cts.reference_models.model.messages import CODES, OK, settling_time
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.requests import changes_between, fails
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -76,11 +77,17 @@ def _attached(check: Property, runtime: ObservedRuntime, link: LinkState, step: 
             yield check.kept(_SUPPORTED)
         return
     if mixed and end.error in _REFUSALS:
-        other_side = any(e.side != kind.side for e in mixed)
-        option, value = ("mixed-pairings", "same-kind") if other_side else ("mixed-clients", "one-kind")
-        if (yield from takes(runtime, option, value)):
-            return
+        for option, value in _reasons_to_refuse(mixed, kind.side):
+            if (yield from takes(runtime, option, value)):
+                return
     yield _refused(check, _PAIRS if mixed else _SUPPORTED, step, end, "it is attached")
+
+
+def _reasons_to_refuse(mixed: list[End], side: str) -> list[tuple[str, str]]:
+    """Readings by which an end is refused beside ends of the other kind: clients beside clients, or beside a server."""
+    beside = {e.side == side for e in mixed}
+    readings = {True: ("mixed-clients", "one-kind"), False: ("mixed-pairings", "same-kind")}
+    return [readings[same] for same in sorted(beside)]
 
 
 def _refused(check: Property, requirement: str, step: s.Link | s.Attach, end: Raise, expected: str) -> Finding:
@@ -148,7 +155,9 @@ def request_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -
             observed=f"it gave {printed(reply.results or ())}",
             at=(call.request.n, reply.n),
         )
-    if not link.broken or link.broken_at > call.request.t:
+    if not link.broken:
+        return _after_mending(check, runtime, call, link)
+    if link.broken_at > call.request.t:
         return ()
     if code != OK:
         return check.kept(_BROKEN)
@@ -158,6 +167,25 @@ def request_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -
         "ok while broken",
         expected=f"{_name(call)} does not give ok: the {link.broken} of its connection is broken",
         observed="it gave ok",
+        at=(call.request.n, reply.n),
+        requirement=_BROKEN,
+    )
+
+
+def _after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall, link: LinkState) -> Concluded:
+    """Once mended and known to be, it carries requests as before."""
+    reply = call.reply
+    if reply is None or not link.mended_at or call.request.t - link.mended_at < settling_time(runtime):
+        return ()
+    well = call.prepared and call.targets and all(ready and not fails(end) for end, ready in call.targets)
+    if not well or call.request.method != REQUEST or next(changes_between(runtime, call.request.n, reply.n), None):
+        return ()
+    if call.code_of_results == OK:
+        return check.kept(_BROKEN)
+    return check.fail(
+        "not ok after mending",
+        expected=f"{_name(call)} gives ok: its connection was mended",
+        observed=f"it gave {call.code_of_results}",
         at=(call.request.n, reply.n),
         requirement=_BROKEN,
     )

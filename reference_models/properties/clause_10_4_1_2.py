@@ -16,7 +16,7 @@ from ucm_cts.reference_models.model.requests import (
     changes_between,
     fails,
     is_sound,
-    waited_in_vain,
+    overdue_since,
 )
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.services import is_left_hanging
@@ -51,7 +51,20 @@ def request_carried(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 if _types(runtime, found)[0] != _PLAIN:
                     yield check.kept(_TYPES)
             elif not asked.entries and asked.waits:
-                yield _violate(check, requirement, "not served", asked, "enters the server", "it did not, and gave ok")
+                due = _CLIENTS if _others_are_served(found, asked) else requirement
+                yield _violate(check, due, "not served", asked, "enters the server", "it did not, and gave ok")
+
+
+def _was_open_before(other: Asked, asked: Asked) -> bool:
+    """Was the ``other`` request made before this one, and not answered yet when this one was made?"""
+    moment = asked.call.request.n
+    return other.call.request.n < moment and (not other.answers or other.answers[0].moment > moment)
+
+
+def _others_are_served(found: Requests, asked: Asked) -> bool:
+    """Do requests of other clients enter the server, and none of this one?"""
+    own = [a for a in found.asked if a.client.is_of_port(asked.client)]
+    return len(own) > 1 and not any(a.entries for a in own) and any(a.entries for a in found.asked if a not in own)
 
 
 def _altered(check: Property, runtime: ObservedRuntime, found: Requests, asked: Asked, entry: Received) -> Finding:
@@ -67,18 +80,16 @@ def request_arrives(check: Property, runtime: ObservedRuntime) -> Conclusions:
     for found in all_requests(runtime):
         for asked in found.asked:
             reply = asked.call.reply
-            if asked.waits or asked.entries or not asked.is_ok or reply is None or not is_sound(runtime, asked):
-                continue
             servers = [end for end, _ in asked.call.targets]
-            if not servers or not waited_in_vain(runtime, servers[0].member, reply):
+            if asked.waits or asked.entries or not asked.is_ok or reply is None or not servers:
                 continue
-            ahead = [
-                other
-                for other in found.asked
-                if other.entries and not other.answers and other.entries[0].delivery.enter.n < reply.n
-            ]
+            overdue = overdue_since(runtime, servers[0].member, reply)
+            if not overdue or not is_sound(runtime, asked, overdue):
+                continue
+            ahead = [other for other in found.asked if other.entries and _was_open_before(other, asked)]
             own = any(other.client.is_of_port(asked.client) for other in ahead)
             requirement = _SEVERAL if own else _UNANSWERED if ahead else _REACHES
+            requirement = _CLIENTS if _others_are_served(found, asked) and not ahead else requirement
             expected = "enters the server"
             expected += ", though earlier ones are not answered yet" if ahead else ""
             yield _violate(check, requirement, "never", asked, expected, "it did not, and gave ok")
@@ -101,7 +112,7 @@ def requests_before_answers(check: Property, runtime: ObservedRuntime) -> Conclu
                 yield check.kept(_UNANSWERED)
 
 
-@property_at("closed", _WAITS, _CARRIES, feature="extended")
+@property_at("closed", _WAITS, _AS_SERVICES, feature="extended")
 def response_awaited(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """The request of a synchronous client comes back when its server has answered, and not before."""
     settled = runtime.interactions.settled
@@ -110,7 +121,15 @@ def response_awaited(check: Property, runtime: ObservedRuntime) -> Conclusions:
             reply = asked.call.reply
             if not asked.waits or reply is None or not asked.is_ok or not asked.entries:
                 continue
+            if next(changes_between(runtime, asked.call.request.n, reply.n), None) is not None:
+                continue  # request_ends has that
             first = min((a.moment for a in asked.answers), default=NEVER)
+            left = asked.entries[0].delivery.exit
+            if left is not None and left.failed and left.n < reply.n:
+                observed = f"it came back with {_shown(asked.given)} and ok"
+                expected = "does not end with ok: its server raised an exception"
+                yield _violate(check, _AS_SERVICES, "swallowed", asked, expected, observed)
+                continue
             if first > reply.n:
                 observed = f"it came back with {_shown(asked.given)} before the server had answered"
                 expected = "comes back when the server has answered"
@@ -192,11 +211,7 @@ def client_goes_on(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     yield _violate(check, _CODES, "not ok", asked, "gives ok: nothing is wrong", f"it gave {got}")
                 continue
             yield check.kept(_CODES)
-            waited = [
-                e
-                for e in settled
-                if e.worker == worker and e.where in ("blocked", "running") and request.n < e.n < reply.n
-            ]
+            waited = [e for e in settled if e.worker == worker and e.where != "done" and request.n < e.n < reply.n]
             held = [d for d in inside if d.was_held and any(d.enter.n < e.n for e in waited)]
             if held and not (yield from takes(runtime, "request-return", "taken")):
                 expected = "comes back when the request is sent, as declared"
@@ -224,7 +239,7 @@ def request_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     yield check.kept(_HANGING)
             elif ending and hangs and all(e.delivery.exit is not None for e in asked.entries):
                 yield _violate(check, _HANGING, "hangs", asked, "ends when its server has left", "it did not end")
-            elif hangs and asked.answers and not ending and is_sound(runtime, asked):
+            elif hangs and asked.answers and not ending:
                 yield _violate(check, _WAITS, "hangs", asked, "ends when it is answered", "it did not end")
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ucm_cts.adapters.contract.data_types import Integer
 from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.platform_interfaces import REQUEST_RESPONSE, RESPONSE, RESPONSE_DATA
-from ucm_cts.adapters.contract.scenario import Stop
+from ucm_cts.adapters.contract.scenario import Start, Stop
 from ucm_cts.adapters.contract.trace import Return
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
@@ -16,7 +16,7 @@ from ucm_cts.reference_models.model.messages import INTERNAL_ERROR, OK
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Requests
-from ucm_cts.reference_models.model.requests import all_requests, is_sound, waited_in_vain
+from ucm_cts.reference_models.model.requests import all_requests, is_sound, overdue_since
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -108,15 +108,17 @@ def response_missing(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     yield check.kept(_ANY_ORDER)
                 continue
             client = asked.client.member
-            if answer.ended is not None and is_sound(runtime, asked) and waited_in_vain(runtime, client, answer.ended):
-                requirement = _ANY_ORDER if overtaking else _STORED if stored else _COMES
-                yield check.fail(
-                    "never",
-                    expected=f"the response {_shown(answer.value)} to '{_asker(asked)}' comes to it",
-                    observed="it did not",
-                    at=(asked.call.request.n, answer.moment),
-                    requirement=requirement,
-                )
+            overdue = overdue_since(runtime, client, answer.ended) if answer.ended is not None else 0
+            if overdue and is_sound(runtime, asked, overdue):
+                broken = (_ANY_ORDER,) if overtaking else (_STORED, _DECOUPLED) if stored else (_COMES,)
+                for requirement in broken:
+                    yield check.fail(
+                        "never",
+                        expected=f"the response {_shown(answer.value)} to '{_asker(asked)}' comes to it",
+                        observed="it did not",
+                        at=(asked.call.request.n, answer.moment),
+                        requirement=requirement,
+                    )
 
 
 def _overtakes(found: Requests, answer: Answer) -> bool:
@@ -146,7 +148,7 @@ def identifiers_pair(check: Property, runtime: ObservedRuntime) -> Conclusions:
             arrived = answer.callbacks or (asked.waits and asked.given == answer.value)
             if arrived and answer.code == OK:
                 yield check.kept(_SERVERS_ID)
-            elif answer.code == INTERNAL_ERROR and is_sound(runtime, asked):
+            elif answer.code == INTERNAL_ERROR and is_sound(runtime, asked, answer.moment):
                 yield check.fail(
                     "not known",
                     expected=f"the server's response with {answer.to.number}, which it was given, is taken",
@@ -304,7 +306,8 @@ def requests_in_phase(check: Property, runtime: ObservedRuntime, delivery: Deliv
     link, receiver = delivery.link, delivery.receiver
     if link is None or link.connector != REQUEST_RESPONSE or receiver is None or receiver.suspended:
         return ()
-    if receiver.operational or (receiver.body in runtime.startups and not receiver.closing):
+    starting = any(isinstance(o.step, Start) for o in runtime.interactions.in_progress.values())
+    if receiver.operational or starting or receiver.container.started is not False:
         return ()
     return check.fail(
         "not operational",

@@ -50,6 +50,7 @@ MODULES = {
         "messages",
         "phases",
         "readings",
+        "requests",
         "restarts",
         "services",
         "starting",
@@ -67,6 +68,7 @@ MODULES = {
         "service_calls",
         "service_values",
     ),
+    "extensions": ("requests", "responses", "request_connections"),
     "dimensions": (
         "aftermath",
         "at_once",

@@ -36,6 +36,9 @@ _LONG = Integer("LONG")
 _EACH = 100
 """The requests of one client are numbered from a multiple of this."""
 
+_SETTLING = 600
+"""Milliseconds after which a connector knows that it was broken or mended, unless the vendor declares more."""
+
 _GIVEN = 5000
 """Responses that a server makes up are numbered from here."""
 
@@ -173,14 +176,22 @@ class Configuration:
         self.steps.append(s.Invoke(f"tell {number}", number + 1, thread=f"asker {number}"))
         return self
 
+    def ask_all(self, *numbers: int) -> Configuration:
+        """Clients make their requests at once, each on a thread of its own; look where these are."""
+        for number in numbers:
+            self.ask_apart(number)
+        for number in numbers:
+            self.settle(number)
+        return self
+
     def settle(self, number: int) -> Configuration:
         """Look where that thread is."""
         self.steps.append(s.Settle(f"asker {number}"))
         return self
 
-    def join(self, number: int) -> Configuration:
-        """Wait for that thread."""
-        self.steps.append(s.Join(f"asker {number}"))
+    def join(self, *numbers: int) -> Configuration:
+        """Wait for these threads."""
+        self.steps += [s.Join(f"asker {number}") for number in numbers]
         return self
 
     def entered(self, total: int) -> Configuration:
@@ -217,12 +228,12 @@ class Configuration:
 
     def break_(self, where: Literal["transport", "inside"]) -> Configuration:
         """Break the connection, and let the connector learn of it."""
-        self.steps += [s.Break(self.link, where), s.Pause(50)]
+        self.steps += [s.Break(self.link, where), s.Pause(_SETTLING)]
         return self
 
     def mend(self) -> Configuration:
         """Mend it, and let the connector learn of it."""
-        self.steps += [s.Mend(self.link), s.Pause(50)]
+        self.steps += [s.Mend(self.link), s.Pause(_SETTLING)]
         return self
 
     def remove(self, number: int) -> Configuration:

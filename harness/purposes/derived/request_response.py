@@ -29,6 +29,9 @@ _OUTSTANDING = 5
 _MOST = 8
 """So many requests of each client may be open (interpretation open-requests)."""
 
+_QUIET = 100
+"""Milliseconds in which nothing is to come."""
+
 _UNKNOWN_ID = 4_000_000_000
 
 _RECORD = d.Structure(
@@ -75,11 +78,11 @@ def _pairs() -> TestPurpose:
     scenarios = []
     for server, kinds in itertools.product(KINDS, _groups()):
         for place in (s.MANAGER, ELSEWHERE):
-            made = Configuration(place).server(server).clients(kinds, 2).start()
+            made = Configuration(place).server(server).clients((*kinds, kinds[0]), 2).start()
             for number in range(len(kinds)):
                 made.ask(number)
             made.restart()
-            made.ask(0)
+            made.ask(len(kinds))
             where = "one container" if place == s.MANAGER else "server elsewhere"
             scenarios.append((f"{' and '.join(kinds)} to {server}, {where}", made.end()))
     text = "Clients of each kind ask a server of each kind, before and after a restart."
@@ -105,15 +108,15 @@ def _stored() -> TestPurpose:
         ("1 to 5", (1, 2, 3, 4, 5)),
     ):
         made = Configuration().storing(order).clients((ASYNCHRONOUS,), len(order)).start()
-        made.ask(0, wait=False).entered(len(order)).answer(len(order))
+        made.ask_all(0).entered(len(order)).answer(len(order)).join(0)
         scenarios.append((f"answers in the order {name}", made.end()))
     orders = ((1, 2, 3, 4, 5, 6), (6, 5, 4, 3, 2, 1), (4, 1, 5, 2, 6, 3))
     for order in orders:
         made = Configuration().storing(order).clients((ASYNCHRONOUS, ASYNCHRONOUS), 3).start()
-        made.ask(0, wait=False).ask(1, wait=False).entered(6).answer(6)
+        made.ask_all(0, 1).entered(6).answer(6).join(0, 1)
         scenarios.append((f"two clients, three each, answers in the order {', '.join(map(str, order))}", made.end()))
     made = Configuration().storing(range(1, 2 * _MOST + 1)).clients((ASYNCHRONOUS, ASYNCHRONOUS), _MOST).start()
-    made.ask(0, wait=False).ask(1, wait=False).entered(2 * _MOST).answer(2 * _MOST)
+    made.ask_all(0, 1).entered(2 * _MOST).answer(2 * _MOST).join(0, 1)
     scenarios.append((f"two clients, {_MOST} each", made.end()))
     text = "A server stores requests of one client or two, and answers them later."
     return _purpose("stored", text, "1-10 2-08 2-09 2-10 2-12 2-13 2-14 2-15", scenarios)
@@ -128,10 +131,10 @@ def _waiting() -> TestPurpose:
         made.open(INSIDE).join(0).answered(1 if client == ASYNCHRONOUS else 0)
         scenarios.append((f"{client} client of a held {server} server", made.end()))
     made = Configuration().storing((2, 1)).clients((SYNCHRONOUS, SYNCHRONOUS), 1).start()
-    made.ask_apart(0).entered(1).settle(0).ask_apart(1).entered(2).settle(1).answer(0).join(0).join(1)
+    made.ask_apart(0).entered(1).settle(0).ask_apart(1).entered(2).settle(1).answer(0).join(0, 1)
     scenarios.append(("two synchronous clients wait, answered in the order 2, 1", made.end()))
     made = Configuration().storing((2, 1)).clients((SYNCHRONOUS, ASYNCHRONOUS), 1).start()
-    made.ask_apart(0).entered(1).settle(0).ask(1, wait=False).entered(2).answer(1).join(0)
+    made.ask_apart(0).entered(1).settle(0).ask_all(1).entered(2).answer(1).join(0, 1)
     scenarios.append(("one waits and one goes on, answered in the order 2, 1", made.end()))
     text = "A client waits, or goes on, while its server is held or has not answered."
     return _purpose("waiting", text, "2-02 2-05 2-03 2-13", scenarios)
@@ -169,9 +172,9 @@ def _identifiers() -> TestPurpose:
     for client in KINDS:
         made = Configuration().storing((1, 1, 2), unknown=_UNKNOWN_ID).clients((client, client), 1).start()
         if client == ASYNCHRONOUS:
-            made.ask(0, wait=False).ask(1, wait=False).entered(2).answer(2)
+            made.ask_all(0).entered(1).ask_all(1).entered(2).answer(2).join(0, 1)
         else:
-            made.ask_apart(0).entered(1).ask_apart(1).entered(2).answer(0).join(0).join(1)
+            made.ask_all(0).entered(1).ask_all(1).entered(2).answer(0).join(0, 1)
         scenarios.append((f"unknown and repeated, {client} clients", made.end()))
     text = "A server answers an unknown request, and one request twice."
     return _purpose("identifiers", text, "2-16 2-17", scenarios)
@@ -187,7 +190,7 @@ def _apart() -> TestPurpose:
         scenarios.append((f"{kind} clients", made.end()))
     made = Configuration().storing((2, 1)).clients((ASYNCHRONOUS,), 2)
     made.connection("second").storing((2, 1), name="server of the second").clients((ASYNCHRONOUS,), 2).start()
-    made.ask(0, wait=False).ask(1, wait=False).entered(4).answer(0).answer(4, "server of the second")
+    made.ask_all(0, 1).entered(4).answer(0).answer(4, "server of the second").join(0, 1)
     scenarios.append(("stored on both", made.end()))
     text = "Requests of two connections are open at the same time."
     return _purpose("apart", text, "2-20", scenarios)
@@ -208,12 +211,12 @@ def _faults() -> TestPurpose:
     """Transport or connector is broken when a client asks, or when a server answers, and mended again."""
     scenarios = []
     for where, client, server in itertools.product(("transport", "inside"), KINDS, KINDS):
-        made = Configuration().server(server).clients((client,), 2).start()
-        made.ask(0).break_(where).ask(0, wait=False).mend().ask(0)  # type: ignore[arg-type]
+        made = Configuration().server(server).clients((client,) * 3, 2).start()
+        made.ask(0).break_(where).ask(1, wait=False).mend().ask(2)  # type: ignore[arg-type]
         scenarios.append((f"{where} broken, {client} to {server}", made.end()))
     for where in ("transport", "inside"):
         made = Configuration().storing((1, 2)).clients((ASYNCHRONOUS,), 2).start()
-        made.ask(0, wait=False).entered(2).break_(where).answer(0).mend()  # type: ignore[arg-type]
+        made.ask_all(0).entered(2).break_(where).answer(0).mend().join(0)  # type: ignore[arg-type]
         scenarios.append((f"{where} broken when the server answers", made.end()))
     text = "Something is broken when a client asks, or a server answers."
     return _purpose("faults", text, "1-35", scenarios)
@@ -224,7 +227,7 @@ def _failing() -> TestPurpose:
     scenarios = []
     for client, server in itertools.product(KINDS, KINDS):
         made = Configuration().failing(server).clients((client,), 2).start()
-        made.ask(0, wait=False).stop()
+        made.ask_all(0).entered(1).join(0).stop()
         scenarios.append((f"{client} client of a {server} server that raises", made.end()))
     made = Configuration().server(SYNCHRONOUS, code="internal_error").clients((SYNCHRONOUS,), 2).start().ask(0)
     scenarios.append(("a server that gives another code", made.end()))
@@ -235,8 +238,8 @@ def _failing() -> TestPurpose:
 def _phases() -> TestPurpose:
     """Requests are outstanding when all are stopped, or a client is removed."""
     scenarios = []
-    made = Configuration().storing((1, 2, 3, 4)).clients((ASYNCHRONOUS,), 2).start()
-    made.ask(0, wait=False).entered(2).restart().ask(0, wait=False).entered(4).answer(2)
+    made = Configuration().storing((1, 2, 3, 4)).clients((ASYNCHRONOUS, ASYNCHRONOUS), 2).start()
+    made.ask_all(0).entered(2).join(0).stop().pause(_QUIET).start().ask_all(1).entered(4).answer(2).join(1)
     scenarios.append(("asynchronous client, stopped and started again", made.end()))
     made = Configuration().storing((1,)).clients((SYNCHRONOUS,), 1).start()
     made.ask_apart(0).entered(1).settle(0).stop().join(0)
@@ -247,9 +250,9 @@ def _phases() -> TestPurpose:
     made = Configuration().server(SYNCHRONOUS, held=True).clients((SYNCHRONOUS,), 1).start(held=True)
     made.ask_apart(0).at_gate().settle(0).stop_apart().open(INSIDE).join(0).join_stop()
     scenarios.append(("synchronous client of a held server, stopped", made.end()))
-    made = Configuration().storing((1, 2)).clients((ASYNCHRONOUS, ASYNCHRONOUS), 1).start()
-    made.ask(0, wait=False).ask(1, wait=False).entered(2).stop().remove(0)
-    made.start().ask(1, wait=False).entered(3)
+    made = Configuration().storing((1, 2)).clients((ASYNCHRONOUS,) * 3, 1).start()
+    made.ask_all(0, 1).entered(2).join(0, 1).stop().remove(0)
+    made.start().ask_all(2).entered(3).join(2)
     scenarios.append(("a client with an open request is removed", made.end()))
     text = "Requests are open when a client or the server is stopped or removed."
     return _purpose("phases", text, "2-19 2-21", scenarios)
