@@ -18,7 +18,7 @@ from ucm_cts.adapters.contract.scenario import Action, Hook, Scenario, Step
 from ucm_cts.adapters.contract.trace import Event, MaybeReference
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
-PROTOCOL = 1
+PROTOCOL = 2
 
 
 class Message(Value, frozen=True, tag_field="type"):

@@ -85,7 +85,7 @@ def _operations() -> tuple[str, ...]:
 
 def _of_operation(name: str) -> Topic:
     """What concerns ``name``; of methods and of operations that only tests know, all that scenarios with them exercise."""
-    purposes = [p for p in load_purposes("core") if any(_uses(scenario, name) for _, scenario in p.scenarios)]
+    purposes = [p for p in load_purposes("extensions") if any(_uses(scenario, name) for _, scenario in p.scenarios)]
     if name in _TEST_STEPS or name in s.STANDARD_METHODS:
         concerned = {id_ for purpose in purposes for id_ in purpose.requirements}
         concerned |= _concerned(name) if name not in _TEST_STEPS else set()
@@ -122,7 +122,7 @@ def _uses(scenario: Scenario, name: str) -> bool:
     plans = [actions for one in scenario.components.values() for actions in one.plan.values()]
     return (
         any(name == getattr(action, "method", "") for actions in plans for action in actions)
-        or any(name in (s.operation(step), getattr(step, "connector", "")) for step in scenario.steps)
+        or any(name in (s.operation(step), getattr(step, "connector", ""), step.claim) for step in scenario.steps)
         or any(name in declaration.plan for declaration in scenario.components.values())
         or any(name == policy.definition for one in scenario.components.values() for policy in one.policies)
     )

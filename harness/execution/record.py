@@ -19,7 +19,7 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Incident, Isolation
 
-FORMAT = 1
+FORMAT = 2
 """The format of records that this suite writes and reads."""
 
 MOST_BYTES = 128 << 20

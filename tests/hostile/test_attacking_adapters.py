@@ -181,7 +181,7 @@ SPEAKERS: dict[str, tuple[str, str]] = {
     "has a number without end": ("b'9' * 100_000 + b'\\n'", "(garbage|protocol): .*"),
     "holds a NUL": ('b\'{"type":"trace\\0"}\\n\'', r"garbage: not a JSON message: '.*x00.*'"),
     "says hello back": (
-        'b\'{"type":"welcome","protocol":1,"product":"p","version":""}\\n\'',
+        'b\'{"type":"welcome","protocol":2,"product":"p","version":""}\\n\'',
         "protocol: welcome where trace is due",
     ),
     "has a huge line": ("b' ' * (3 << 20)", "flood: a line of more than 1 MiB"),
@@ -191,7 +191,7 @@ SPEAKER = """#!{python} -S
 import os, sys
 for line in sys.stdin:
     if '"hello"' in line:
-        text = b'{{"type":"welcome","protocol":1,"product":"speaker","version":"1"}}\\n'
+        text = b'{{"type":"welcome","protocol":2,"product":"speaker","version":"1"}}\\n'
     elif '"trigger"' in line.partition('"steps"')[2]:
         text = {said}
     else:
@@ -233,18 +233,18 @@ def test_program_that_cannot_be_run_gets_one_line(here: Path, text: str, line: s
     ("product", "line"),
     [
         (
-            'b\'{{"type":"welcome","protocol":1,"product":"p","version":"%d"}}\\n\' % os.getpid()',
+            'b\'{{"type":"welcome","protocol":2,"product":"p","version":"%d"}}\\n\' % os.getpid()',
             r"the host is of 'p \d+', and the first host of this run was of 'p \d+'; a product must not change during a run",
         ),
         (
-            'b\'{{"type":"welcome","protocol":1,"product":"p","version":"1","port_element_name":"{{port}}.%d.{{element}}"}}\\n\' % os.getpid()',
+            'b\'{{"type":"welcome","protocol":2,"product":"p","version":"1","port_element_name":"{{port}}.%d.{{element}}"}}\\n\' % os.getpid()',
             "the host says other things of 'p 1' than the first host of this run; it must not change during a run",
         ),
     ],
     ids=["version", "spelling"],
 )
 def test_product_that_changes_during_a_run_gets_one_line(here: Path, product: str, line: str) -> None:
-    usual = """b'{{"type":"welcome","protocol":1,"product":"speaker","version":"1"}}\\n'"""
+    usual = """b'{{"type":"welcome","protocol":2,"product":"speaker","version":"1"}}\\n'"""
     adapter = program(here, SPEAKER.replace(usual, product).format(python=sys.executable, said="sys.exit(3)"))
     (before, attacked, *after), _ = answers(adapter, PATIENT, [CALM, TRIGGER, CALM, CALM])
     assert (line_of(before), line_of(attacked)) == ("traced", "exit: exit status 3")

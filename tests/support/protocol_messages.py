@@ -159,11 +159,11 @@ def mutated_lines() -> list[bytes]:
         b"x",
         b"{}",
         b"[]",
-        b'{"type":"hello","protocol":1}x',
-        b'{"type":"hello","protocol":"1"}',
+        b'{"type":"hello","protocol":2}x',
+        b'{"type":"hello","protocol":"2"}',
         b'{"type":"run"',
     ]
-    lines += [b'\xff{"type":"hello","protocol":1}', b'{"type":"hello","protocol":2}', b"[" * 100_000]
+    lines += [b'\xff{"type":"hello","protocol":2}', b'{"type":"hello","protocol":3}', b"[" * 100_000]
     lines = [line for line in lines if b'"stream": true' not in line]
     assert len(lines) > 500
     return lines

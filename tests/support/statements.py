@@ -10,7 +10,9 @@ from ucm_cts.harness.results.statement import HOOKS, Statement, default_statemen
 ADAPTER = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 REQUIREMENTS = {r.id: r for r in load_requirements()}
 CORE_REQUIREMENTS = [r for r in load_requirements() if r.profile == "core" and not r.untestable]
-PARTS = [capability.id for capability in load_capabilities().capabilities]
+PARTS = [capability.id for capability in load_capabilities().capabilities if capability.profile == "core"]
+"""Those of 10.1."""
+EXTENSIONS = [capability.id for capability in load_capabilities().capabilities if capability.profile == "extensions"]
 ASKED = {
     "unknown-policy": "refused",
     "incompatible-ends": "refused",

@@ -139,11 +139,11 @@ def test_refusals_name_the_place(java: JavaBuilds) -> None:
     plan = b'{"type":"run","id":4,"scenario":{"components":{"A":{"plan":{"on_init":[{"do":"dance"}]}}},"steps":[]}}\n'
     refuse = m.Run(8, s.Scenario({"refuse": s.Declaration()}, ()))
     answers, _, _ = talk(java.program("RudeAdapter"), steps, plan, b'{"type":"hello","protocol":7}\n', refuse)
-    begin = "not a message of protocol 1: "
+    begin = "not a message of protocol 2: "
     assert answers == [
         m.Refused(f"{begin}Object contains unknown field `x` - at `$.scenario.steps[1]`", 3),
         m.Refused(f"{begin}Invalid value 'dance' - at `$.scenario.components.A.plan.on_init[0].do`", 4),
-        m.Refused("the harness speaks protocol 7, this host speaks 1"),
+        m.Refused("the harness speaks protocol 7, this host speaks 2"),
         m.Refused("java.lang.IllegalStateException: no licence", 8),
     ]
 

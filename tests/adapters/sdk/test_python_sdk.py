@@ -87,7 +87,7 @@ def test_hello_is_answered_with_welcome() -> None:
         (b"nonsense", "malformed"),
         (b'{"type":"run","id":1}', "missing required field `scenario`"),
         (b'{"type":"dance"}', "Invalid value 'dance'"),
-        (b'{"type":"hello","protocol":"1"}', "Expected `int`, got `str`"),
+        (b'{"type":"hello","protocol":"2"}', "Expected `int`, got `str`"),
         (b'{"type":"run","id":1,"scenario":{"components":{},"steps":[{"op":"start","x":1}]}}', "unknown field `x`"),
         (b'{"type":"\xff"}', "utf-8"),
     ],

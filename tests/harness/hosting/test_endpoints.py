@@ -99,7 +99,7 @@ def test_hosts_refuse_the_same_and_say_which_message() -> None:
         for answer, (line, number) in zip(answers, REFUSED.items(), strict=True):
             assert isinstance(answer, Refused), line
             assert answer.id == number, line
-        assert answers[0] == Refused("the harness speaks protocol 2, this host speaks 1")
+        assert answers[0] == Refused("the harness speaks protocol 3, this host speaks 2")
         assert all("twice" in answers[n].reason for n in (7, 8))  # type: ignore[union-attr]
 
 

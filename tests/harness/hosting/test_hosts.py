@@ -161,7 +161,7 @@ def test_stream_without_end_is_a_hang(tmp_path: Path) -> None:
     ("speaker", "kind", "detail"),
     [
         (speakers.SaysNothing, "hang", "does not answer hello: hang, no answer within 2 s"),
-        (speakers.SpeaksAnotherProtocol, "protocol", "speaks protocol 2, the harness 1"),
+        (speakers.SpeaksAnotherProtocol, "protocol", "speaks protocol 3, the harness 2"),
         (speakers.HasNoName, "protocol", "Expected `str` of length >= 1 - at `$.product`"),
         (speakers.DiesAtOnce, "exit", "exit status 4\ncannot read my configuration"),
         (speakers.DiesLoudly, "exit", "noise 4999"),

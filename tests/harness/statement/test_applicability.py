@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from statements import CORE_REQUIREMENTS, EVERYTHING, PARTS, REQUIREMENTS, stating
+from statements import CORE_REQUIREMENTS, EVERYTHING, EXTENSIONS, PARTS, REQUIREMENTS, stating
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options, load_requirements
@@ -16,7 +16,10 @@ pytestmark = pytest.mark.usefixtures("here")
 
 
 def test_needs_name_existing_capabilities_and_readings() -> None:
-    known = {f"{option}={value}" for option, values in load_options().items() for value in values} | set(PARTS)
+    known = {f"{option}={value}" for option, values in load_options().items() for value in values} | {
+        *PARTS,
+        *EXTENSIONS,
+    }
     for need in load_capabilities().needs:
         assert {*need.needs, *need.one_of} <= known
         for pattern in need.requirements:
@@ -29,7 +32,7 @@ def test_needs_name_existing_capabilities_and_readings() -> None:
 
 
 def test_everything_applies_if_everything_is_claimed() -> None:
-    everything = stating()
+    everything = stating(dict.fromkeys(EXTENSIONS, True))
     assert [r.id for r in load_requirements() if why_not(r, everything)] == []
     assert lacking_claims(everything, "core") == {}
     readings = tuple(f"{option}={value}" for option, value in EVERYTHING.items())

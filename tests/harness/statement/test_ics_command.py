@@ -12,7 +12,7 @@ import msgspec
 import pytest
 from command_line import report_of, ucm_cts
 from lxml import etree
-from statements import ADAPTER, CORE_REQUIREMENTS, PARTS, REQUIREMENTS, stating
+from statements import ADAPTER, CORE_REQUIREMENTS, EXTENSIONS, PARTS, REQUIREMENTS, stating
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import PROTOCOL, Welcome
@@ -38,7 +38,9 @@ def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
     assert statement.profiles == FRAMEWORK_PROFILES
     unnamed = msgspec.structs.replace(statement, product="", version="", source="", folder=".", profiles=PROFILES)
     default = default_statement()
-    assert unnamed == msgspec.structs.replace(default, readings=default.readings | dict.fromkeys(HOOKS, "hook"))
+    readings = default.readings | dict.fromkeys(HOOKS, "hook")
+    capabilities = default.capabilities | dict.fromkeys(EXTENSIONS, True)
+    assert unnamed == msgspec.structs.replace(default, readings=readings, capabilities=capabilities)
     (command,) = re.findall(r"(ucm-cts run .*)", outcome.out)
     outcome = ucm_cts(*shlex.split(command)[1:], "-k", "R-11.2.2.1-13")
     assert (outcome.status, outcome.err) == (0, "")
@@ -66,8 +68,9 @@ def test_a_short_statement_has_what_differs_and_what_must_be_decided(here: Path)
     }
     undecided = {"core-models": "shipped"} | asked | free
     assert short["readings"] == dict.fromkeys(HOOKS, "hook") | undecided
-    assert (short["profiles"], short["models"]) == (["container", "core"], {"core": []})
-    assert short.keys() == {"product", "version", "profiles", "readings", "models"}
+    assert (short["profiles"], short["models"]) == ([*FRAMEWORK_PROFILES], {"core": []})
+    assert short["capabilities"] == dict.fromkeys(EXTENSIONS, True)
+    assert short.keys() == {"product", "version", "profiles", "capabilities", "readings", "models"}
     assert text.count("# TO DECIDE: ") == len(undecided)
     assert max(len(line) for line in text.split("\n") if ADAPTER not in line) <= 128
     stated = read_statement(here / "ucm-cts-ics.toml")
@@ -101,9 +104,9 @@ def test_a_statement_claims_nothing_that_the_adapter_does_not_offer(here: Path, 
         assert "simple_service_connector (link is not offered)" in " ".join(text.split())
     assert ucm_cts("ics", "subjects:has_no_services", "--profile", "core", "--force", *form).status == 0
     stated = read_statement(here / "ucm-cts-ics.toml")
-    assert (stated.profiles, [part for part in PARTS if not stated.capabilities[part]]) == (
-        FRAMEWORK_PROFILES,
-        [s.SERVICE_CONNECTOR],
+    assert (stated.profiles, [part for part in (*PARTS, *EXTENSIONS) if not stated.capabilities[part]]) == (
+        ("container", "core"),
+        [s.SERVICE_CONNECTOR, *EXTENSIONS],
     )
     assert {stated.readings[hook] for hook in HOOKS} == {"hook"}, "messages can be broken, too"
 
@@ -122,7 +125,7 @@ def test_a_statement_claims_nothing_that_the_adapter_does_not_offer(here: Path, 
 def test_what_an_adapter_offers_is_found_out(lacks: str, of: set[str]) -> None:
     with Driver(locate(lacks, in_process=True), 1) as driver:
         offers = offers_of(driver)
-    assert offers.keys() == {*PARTS, *HOOKS}
+    assert offers.keys() == {*PARTS, *EXTENSIONS, *HOOKS}
     assert {name for name, offer in offers.items() if offer.lacking} == of
     assert not [offer for offer in offers.values() if "not tried" in offer.lacking]
     declared = claimed(default_statement(), offers).readings["protected-active-applicability"]

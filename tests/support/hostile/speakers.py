@@ -28,7 +28,7 @@ class Speaker:
                 self.say(type="trace", id=message["id"], events=[])
 
     def greet(self) -> None:
-        self.say(type="welcome", protocol=1, product="hostile", version="1")
+        self.say(type="welcome", protocol=2, product="hostile", version="1")
 
     def misbehave(self, number: int) -> None:
         raise NotImplementedError
@@ -126,14 +126,14 @@ class SpeaksAnotherProtocol(Speaker):
     """Says it speaks a later version of the protocol."""
 
     def greet(self) -> None:
-        self.say(type="welcome", protocol=2, product="hostile", version="1")
+        self.say(type="welcome", protocol=3, product="hostile", version="1")
 
 
 class HasNoName(Speaker):
     """Does not say what product it is."""
 
     def greet(self) -> None:
-        self.say(type="welcome", protocol=1, product="", version="1")
+        self.say(type="welcome", protocol=2, product="", version="1")
 
 
 class DiesLoudly(Speaker):

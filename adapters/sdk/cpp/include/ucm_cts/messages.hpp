@@ -18,7 +18,7 @@
 
 namespace ucm_cts {
 
-const std::int64_t PROTOCOL = 1;
+const std::int64_t PROTOCOL = 2;
 
 /// What a host says of the framework it has inside.
 struct Product {

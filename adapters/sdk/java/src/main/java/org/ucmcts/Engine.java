@@ -12,7 +12,7 @@ import org.ucmcts.Shape.Misfit;
 
 /** Answers wire messages by running scenarios, as docs/protocol.md says: one message in, one answer out, in order. */
 final class Engine {
-    private static final long PROTOCOL = 1;
+    private static final long PROTOCOL = 2;
 
     private final Product product;
     private final Supplier<? extends Adapter<?>> adapters;
