@@ -6,7 +6,7 @@ import fnmatch
 import functools
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 import msgspec
 
@@ -24,6 +24,42 @@ def decides(level: Level) -> bool:
     return level != "should"
 
 
+Part = Literal[
+    "",
+    "properties",
+    "request-response",
+    "shared-data",
+    "timers",
+    "index-timers",
+    "object-timers",
+    "execution",
+    "periodic_self-executing_component",
+    "background_self-executing_component",
+    "sporadic_protected_active_component",
+    "periodic_protected_active_component",
+]
+"""What a requirement of profile extensions belongs to."""
+
+_SEVERAL: Mapping[str, tuple[str, ...]] = {
+    "timers": ("index-timers", "object-timers"),
+    "execution": (
+        "periodic_self-executing_component",
+        "background_self-executing_component",
+        "sporadic_protected_active_component",
+        "periodic_protected_active_component",
+    ),
+}
+"""What several parts have in common, and these parts, which a vendor claims one by one."""
+
+CLAIMABLE: tuple[str, ...] = tuple(part for part in get_args(Part) if part and part not in _SEVERAL)
+"""The parts of profile extensions, finished or not."""
+
+
+def claims_of(part: str) -> tuple[str, ...]:
+    """The parts that a vendor can claim, one of which makes the requirements of ``part`` apply."""
+    return _SEVERAL.get(part, (part,))
+
+
 class Requirement(Value, frozen=True):
     """One demand of the specification, in the project's own words. It has exactly one of ``rules``, ``pending`` and ``untestable``.
 
@@ -39,7 +75,7 @@ class Requirement(Value, frozen=True):
     ``interpretations``: ids of entries in ``suite/interpretations``.
     ``profile``: the first profile that has it.
     ``pending``: what its property still needs.
-    ``part``: the part of profile extensions that it belongs to, which a vendor claims by itself.
+    ``part``: the part of profile extensions that it belongs to, which a vendor claims by itself, or what several parts have in common.
     """
 
     id: str
@@ -54,7 +90,11 @@ class Requirement(Value, frozen=True):
     profile: str = "container"
     pending: str = ""
     derived: str = ""
-    part: str = ""
+    part: Part = ""
+
+    def __post_init__(self) -> None:
+        if self.part and self.profile != "extensions":
+            raise ValueError(f"part {self.part} is of profile extensions, not of {self.profile}; leave it out")
 
     @property
     def force(self) -> str:
@@ -98,14 +138,16 @@ def load_requirements() -> tuple[Requirement, ...]:
 @functools.cache
 def unfinished_parts() -> frozenset[str]:
     """The parts of profile extensions of which some requirement is pending: no run asks for them, and nobody can claim them."""
-    return frozenset(r.part for r in load_requirements() if r.part and r.pending)
+    return frozenset(part for r in load_requirements() if r.part and r.pending for part in claims_of(r.part))
 
 
 @functools.cache
 def requirements_of(profile: str) -> tuple[Requirement, ...]:
     """What a run of ``profile`` asks for, in the order of the clauses; nothing for an unknown one."""
-    families = PARTS.get(profile, ())
-    return tuple(r for r in load_requirements() if r.profile in families and r.part not in unfinished_parts())
+    families, unfinished = PARTS.get(profile, ()), unfinished_parts()
+    return tuple(
+        r for r in load_requirements() if r.profile in families and not unfinished.issuperset(claims_of(r.part))
+    )
 
 
 @functools.cache
@@ -183,14 +225,15 @@ class Capabilities(Value, frozen=True):
     def of(self, requirement: str) -> list[Need]:
         """What ``requirement`` needs; nothing for one that always applies."""
         found = [n for n in self.needs if any(fnmatch.fnmatchcase(requirement, p) for p in n.requirements)]
-        part = _parts().get(requirement)
-        return [*([Need((requirement,), (part,))] if part is not None else []), *found]
+        parts = _parts().get(requirement)
+        return [*([Need((requirement,), one_of=parts)] if parts is not None else []), *found]
 
 
 @functools.cache
-def _parts() -> Mapping[str, str]:
-    """The part of profile extensions that a requirement belongs to, by its id; none in the making."""
-    return {r.id: r.part for r in requirements_of("extensions") if r.part}
+def _parts() -> Mapping[str, tuple[str, ...]]:
+    """The parts of profile extensions that a requirement belongs to, by its id; none in the making."""
+    finished = {part: tuple(p for p in claims_of(part) if p not in unfinished_parts()) for part in get_args(Part)}
+    return {r.id: finished[r.part] for r in requirements_of("extensions") if r.part}
 
 
 @functools.cache

@@ -1,1 +1,1 @@
-"""Compares the models that a framework ships with 10.1, without a host."""
+"""Compares the models that a framework ships with clause 10, without a host."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter
+import itertools
 from collections.abc import Mapping, MutableMapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.models.spellings import INTEGERS, KNOWN_ATTRIBUTES, KNOWN_TAGS, Element, is_printed, words
+from ucm_cts.harness.models.matching import candidates, is_strange, match, may_be, same, segments
+from ucm_cts.harness.models.spellings import INTEGERS, KNOWN_ATTRIBUTES, KNOWN_TAGS, MODULES, Element, words
 
 Status = Literal["kept", "broken", "absent", "left out", "unclear"]
 """``absent``: the declaration that should contain it is missing. ``left out``: it may be missing, and it
@@ -24,6 +25,7 @@ class Reading(Value, frozen=True):
     ``missing``: the declaration may be missing.
     ``always``: holds whether or not the vendor declares it.
     ``direct``: the attributes say it themselves, not by the name of a declared type.
+    ``also``: what one further child of a kind has, which there may be.
     """
 
     option: str
@@ -32,12 +34,14 @@ class Reading(Value, frozen=True):
     missing: bool = False
     always: bool = False
     direct: bool = False
+    also: dict[str, dict[str, str]] = {}
 
 
 class Declaration(Value, frozen=True):
     """The place of a requirement's declaration in the suite's own files.
 
     ``within``: the requirement speaks of everything inside, too, that no other entry names.
+    ``leads_to``: the type may be any that leads to a declaration of this kind.
     """
 
     requirement: str
@@ -47,6 +51,7 @@ class Declaration(Value, frozen=True):
     readings: tuple[Reading, ...] = ()
     beyond: dict[str, str] = {}
     within: bool = False
+    leads_to: str = ""
 
 
 @dataclass(frozen=True)
@@ -56,30 +61,35 @@ class Conventions:
     ``root_option``, ``at_root``: the option that says where modules stand, and its value for the root.
     ``general``: the requirements that speak of further children of a kind, and under "" of all others; without one the requirement
     of the declaration does.
+    ``free``: kinds of which there may be further children.
     """
 
     root_option: str
     at_root: str
     general: Mapping[str, str]
+    free: frozenset[str] = frozenset()
 
 
 _CHILDREN: Mapping[str, tuple[str, ...]] = {
-    "Interface": ("Method", "Attribute"),
+    "Interface": ("Method", "Attribute", "InheritedInterface"),
     "Method": ("Parameter", "RaisedException"),
     "Structure": ("StructureField",),
     "Enumeration": ("Enumerator",),
     "TechnicalPolicyDefinition": ("PortElement", "ConfigurationParameter"),
+    "AnnotationDefinition": ("ConfigurationParameter",),
     "PortType": ("PortElement",),
     "InteractionPattern": ("InteractionRole", "InteractionItem"),
     "InteractionRole": ("InvolvedItem",),
     "ConnectorDefinition": ("ConnectorPort", "ItemBinding", "ConfigurationParameter"),
     "ContractModule": ("NativeType",),
 }
-"""Children that count: one more than 10.1 has is too many. All others are free."""
+"""Children that count: one more than the text has is too many. All others are free."""
 
 _INHERITING = ("extends", "inheritedInterface")
 _ORDERED = ("Parameter", "StructureField", "Enumerator")
-_REFERENCES = words("technicalAspect interface type item pattern portRole api interactionItem connectorItem indexType")
+_REFERENCES = words(
+    "technicalAspect extends interface type item pattern portRole api interactionItem connectorItem indexType"
+)
 
 
 @dataclass(frozen=True)
@@ -96,31 +106,34 @@ _KEPT = Fact("kept")
 
 @dataclass
 class Comparing:
-    """One comparison: ``facts`` are filed by requirement and by what they are about; ``claims`` has every option.
+    """One comparison of all elements of the suite's that have a declaration in ``declarations``.
 
-    If a requirement speaks of several declarations, the path of each stands before what its facts are about.
+    ``facts`` are filed by requirement and by what they are about; if a requirement speaks of several declarations, the path of each
+    but the first stands before what its facts are about. ``claims`` has every option. ``printed`` are the paths of what the text
+    declares.
     """
 
     declarations: Mapping[Element, Declaration]
     claims: MutableMapping[str, str]
     conventions: Conventions
+    printed: frozenset[tuple[str, ...]]
     facts: dict[str, dict[str, Fact]] = field(default_factory=dict)
     readings: dict[str, set[str]] = field(default_factory=dict)
     declared: dict[tuple[str, ...], list[Element]] = field(default_factory=dict)
-    printed: set[tuple[str, ...]] = field(default_factory=set)
 
     def __post_init__(self) -> None:
-        times = Counter(d.requirement for d in self.declarations.values())
-        self.shared = {requirement for requirement, number in times.items() if number > 1}
+        self.compared = {element.path for element in self.declarations}
+        self.first: dict[str, Element] = {}
+        for element, declaration in self.declarations.items():
+            self.first.setdefault(declaration.requirement, element)
 
     def compare(self, ours: Element, root: Element, core: Element) -> None:
         """Compare what is declared at the ``root`` and below ``core`` with ``ours``."""
-        self.printed = {e.path for e in ours.walk()}
         theirs = self._merged(ours, root, core)
         for element in theirs.walk():
             self.declared.setdefault(element.path, []).append(element)
         self._settle()
-        for module in ours.children:
+        for module in self._inside(ours):
             self._declaration(module, theirs)
 
     def _merged(self, ours: Element, root: Element, core: Element) -> Element:
@@ -133,7 +146,7 @@ class Comparing:
         if claim != at_root:
             there = {(c.tag, c.name) for c in merged.children}
             merged.children += [c for c in core.children if (c.tag, c.name) not in there]
-        for module in ours.children:
+        for module in self._inside(ours):
             places = [
                 [c for c in tree.children if (c.tag, c.name) == (module.tag, module.name)] for tree in (root, core)
             ]
@@ -143,7 +156,7 @@ class Comparing:
             if met and claim in (met, "observed"):
                 self.readings.setdefault(option, set()).add(met)
             requirement = self.declarations[module].requirement
-            if all(places) and claim in ("both", "observed") and not _same(places[0][0], places[1][0]):
+            if all(places) and claim in ("both", "observed") and not same(places[0][0], places[1][0]):
                 self._note(requirement, "place", "one declaration", f"{module.name} differs from core::{module.name}")
             elif claim == "both" and met in (at_root, "core"):
                 self._note(
@@ -165,20 +178,24 @@ class Comparing:
             if self.claims[option] == "observed":
                 self.claims[option] = value
 
+    def _inside(self, ours: Element) -> list[Element]:
+        return [child for child in ours.children if child in self.declarations]
+
     def _declaration(self, ours: Element, scope: Element | None) -> Element | None:
         """Look for ``ours`` in ``scope``, compare it and everything inside it; returns the element that was compared."""
         declaration = self.declarations[ours]
         readings = [r for r in declaration.readings if self._accepts(r)]
-        theirs = _match(ours, scope, readings) if scope is not None else None
+        names = {r.attributes.get("name", ours.name) for r in readings if not r.missing} or {ours.name}
+        theirs = match(ours, scope, names) if scope is not None else None
         if theirs is None:
             self._missing(ours, scope, declaration, readings)
-            for child in ours.children:
+            for child in self._inside(ours):
                 self._declaration(child, None)
             return None
         self._file(declaration.requirement, self._about(ours, "there"), _KEPT)
         self._kind(ours, theirs, declaration.requirement)
         self._attributes(ours, theirs, declaration, readings)
-        pairs = [(child, self._declaration(child, theirs)) for child in ours.children]
+        pairs = [(child, self._declaration(child, theirs)) for child in self._inside(ours)]
         self._beyond(ours, theirs, declaration, pairs)
         found = [t for o, t in pairs if t is not None and _is_ordered(o)]
         if found:
@@ -204,7 +221,7 @@ class Comparing:
                 self._met(reading)
         else:
             inside = "::".join(scope.path) or "the models"
-            strange = next((c for c in scope.children if _may_be(ours, c)), None)
+            strange = next((c for c in scope.children if may_be(ours, c)), None)
             status: Status = "unclear" if strange is not None else "broken"
             hint = f", but there is {strange.tag} ({strange.where})" if strange is not None else ""
             fact = Fact(status, f"{what} in {inside}", f"it is missing{hint}")
@@ -218,14 +235,14 @@ class Comparing:
         self._file(requirement, self._about(ours, "is"), fact)
         assert theirs.parent is not None
         twins = [c for c in theirs.parent.children if ours.name and (c.tag, c.name) == (theirs.tag, theirs.name)]
-        differing = [c for c in twins if not _same(c, theirs)]
+        differing = [c for c in twins if not same(c, theirs)]
         if differing:
             observed = f"{theirs.name} is declared twice, differently ({theirs.where}, {differing[0].where})"
             self._note(requirement, self._about(ours, "twin"), "one declaration", observed)
 
     def _attributes(self, ours: Element, theirs: Element, declaration: Declaration, readings: list[Reading]) -> None:
         expected, direct = dict(ours.attributes), set[str]()
-        for option in dict.fromkeys(r.option for r in declaration.readings):
+        for option in dict.fromkeys(r.option for r in declaration.readings if not r.also):
             touched = {a for r in declaration.readings if r.option == option for a in r.attributes}
             accepted = [r for r in readings if r.option == option and not r.missing]
             fitting = [
@@ -242,7 +259,7 @@ class Comparing:
                 continue
             fact, there = _KEPT, theirs.attributes.get(attribute, "")
             if not self._equal(attribute, value, ours, theirs, attribute in direct):
-                strange = _is_strange(attribute, value, there) if there else set(theirs.attributes) - KNOWN_ATTRIBUTES
+                strange = is_strange(attribute, value, there) if there else set(theirs.attributes) - KNOWN_ATTRIBUTES
                 text = f"{attribute} {there}" if there else f"no {attribute}" if value else ""
                 status: Status = "unclear" if strange or theirs.tag not in KNOWN_TAGS else "broken"
                 fact = Fact(status, f"{attribute} {value}" if value else f"no {attribute}", f"{text} ({theirs.where})")
@@ -252,19 +269,37 @@ class Comparing:
         there = theirs.attributes.get(attribute, "")
         if direct or attribute not in _REFERENCES or not value or not there or there == value in INTEGERS:
             return there == value
-        named = self._named(there, theirs)
+        named = self._named(there, theirs, attribute)
         if value in INTEGERS:
             return any(
                 e.tag == "PrimitiveInteger" and e.attributes.get("kind") == value
                 for e in self.declared.get(named[0], [])
             )
-        expected = next((p for p in _candidates(value, ours) if p in self.printed), None)
-        return expected in named if expected else _segments(there)[-1:] == _segments(value)[-1:]
+        expected = next((p for p in candidates(value, ours) if p in self.printed), None)
+        leads_to = self.declarations[ours].leads_to
+        if leads_to:
+            missing_elsewhere = expected in named and expected in self.compared  # a matter of its own requirement
+            return missing_elsewhere or self._leads_to(leads_to, named)
+        return expected in named if expected else segments(there)[-1:] == segments(value)[-1:]
 
-    def _named(self, reference: str, element: Element) -> list[tuple[str, ...]]:
-        """The declaration that ``reference`` means: the nearest one, or the possible paths if there is none."""
-        candidates = _candidates(reference, element)
-        return [p for p in candidates if p in self.declared][:1] or candidates
+    def _named(self, reference: str, element: Element, attribute: str) -> list[tuple[str, ...]]:
+        """The declaration that ``reference`` means: the nearest one that can be meant, or the possible paths if there is none."""
+        paths = candidates(reference, element)
+        never = MODULES if attribute == "extends" else (*MODULES, "TechnicalPolicyDefinition")
+        found = (p for p in paths if any(e.tag not in never for e in self.declared.get(p, ())))
+        return list(itertools.islice(found, 1)) or paths
+
+    def _leads_to(self, tag: str, named: list[tuple[str, ...]]) -> bool:
+        """Is one of ``named`` declared as ``tag``, maybe by aliases?"""
+        seen = set[tuple[str, ...]]()
+        while named:
+            seen.update(named)
+            meant = [e for path in named for e in self.declared.get(path, ())]
+            if any(e.tag == tag for e in meant):
+                return True
+            aliases = (self._named(e.attributes.get("type", ""), e, "type") for e in meant if e.tag == "Alias")
+            named = [path for paths in aliases for path in paths if path not in seen]
+        return False
 
     def _beyond(
         self, ours: Element, theirs: Element, declaration: Declaration, pairs: list[tuple[Element, Element | None]]
@@ -273,21 +308,40 @@ class Comparing:
         found = [t for o, t in pairs if t is not None and not self._may_be_missing(o)]
         names = {(t.tag, t.name) for t in found if t.name}
         for tag in _CHILDREN.get(ours.tag, ()):
+            if tag in self.conventions.free:
+                continue
             strangers = [c for c in theirs.children if c.tag == tag and c not in found and (tag, c.name) not in names]
+            strangers = self._without_permitted(tag, strangers, ours, declaration)
             wanted = sum(o.tag == tag and t is None and not self._may_be_missing(o) for o, t in pairs)
             general = self.conventions.general
             requirement = declaration.beyond.get(tag) or general.get(tag) or general.get("") or declaration.requirement
             text = ", ".join(f"{tag} {c.name} ({c.where})" for c in strangers)
             self._note(requirement, f"{place} {tag}", f"no further {tag} in {place}", text, len(strangers) <= wanted)
         if ours.tag in ("Interface", "TechnicalPolicyDefinition"):
-            for attribute in _INHERITING:
+            for attribute in (a for a in _INHERITING if a not in ours.attributes):
                 parent = theirs.attributes.get(attribute, "")
                 text = f"{attribute} {parent} ({theirs.where})"
                 all_others = self.conventions.general.get("") or declaration.requirement
                 self._note(all_others, f"{place} {attribute}", f"{place} inherits nothing", text, not parent)
 
+    def _without_permitted(
+        self, tag: str, strangers: list[Element], ours: Element, declaration: Declaration
+    ) -> list[Element]:
+        """``strangers`` without the one that a reading has; it must be there if the vendor declares that reading."""
+        for reading in (r for r in declaration.readings if tag in r.also and self._accepts(r)):
+            also = reading.also[tag]
+            fitting = [s for s in strangers if all(self._equal(a, v, ours, s, False) for a, v in also.items())]
+            if fitting:
+                self._met(reading)
+            elif self.claims[reading.option] == reading.value:
+                expected = f"{tag} with {' and '.join(f'{a} {v}' for a, v in also.items())}"
+                about = self._about(ours, reading.option)
+                self._note(declaration.requirement, about, expected, f"it is missing in {'::'.join(ours.path)}")
+            strangers = [s for s in strangers if s not in fitting[:1]]
+        return strangers
+
     def _about(self, ours: Element, what: str) -> str:
-        if self.declarations[ours].requirement not in self.shared:
+        if self.first[self.declarations[ours].requirement] is ours:
             return what
         return f"{'::'.join(ours.path)}{ours.attributes.get('item', '')} {what}"
 
@@ -309,65 +363,3 @@ class Comparing:
 
 def _is_ordered(element: Element) -> bool:
     return element.tag in _ORDERED and element.attributes.get("direction") != "RETURN"
-
-
-def _match(ours: Element, scope: Element, readings: list[Reading]) -> Element | None:
-    """The child of ``scope`` that is meant to be ``ours``: by kind and name, else by a name that nothing else has."""
-    same_kind = [c for c in scope.children if c.tag == ours.tag]
-    if not ours.name:
-        return _match_nameless(ours, same_kind)
-    names = {r.attributes.get("name", ours.name) for r in readings if not r.missing} or {ours.name}
-    assert ours.parent is not None
-    siblings = {(o.tag, o.name) for o in ours.parent.children}
-    others = [c for c in scope.children if (c.tag, c.name) not in siblings]
-    return next((c for c in (*same_kind, *others) if c.name in names), None)
-
-
-def _match_nameless(ours: Element, same_kind: list[Element]) -> Element | None:
-    """The one about the same item; else the first that is about no item that ``ours`` has in another element of this kind."""
-    assert ours.parent is not None
-    about = {_item_of(o) for o in ours.parent.children if o.tag == ours.tag}
-    meant = [c for c in same_kind if _item_of(c) == _item_of(ours)]
-    others = [c for c in same_kind if len(about) == 1 or _item_of(c) not in about]
-    return next(iter((*meant, *others)), None)
-
-
-def _item_of(element: Element) -> str:
-    """The item that a nameless element is about, by its own name."""
-    reference = element.attributes.get("item") or element.attributes.get("interactionItem", "")
-    return (_segments(reference) or ("",))[-1]
-
-
-def _may_be(ours: Element, child: Element) -> bool:
-    """Is ``child`` spelled in a way that the text never prints, so that it could be ``ours``?"""
-    nameless = child.tag == ours.tag and bool(ours.name) and not child.name
-    return child.tag not in KNOWN_TAGS or (nameless and bool(set(child.attributes) - KNOWN_ATTRIBUTES))
-
-
-def _is_strange(attribute: str, value: str, there: str) -> bool:
-    """Is ``there`` written as the text never writes it: another word, or a role or an item without its pattern?"""
-    bare = attribute in ("portRole", "interactionItem") and (there,) == _segments(value)[-1:]
-    return bare or not is_printed(attribute, there)
-
-
-def _same(one: Element, other: Element) -> bool:
-    return _form(one) == _form(other)
-
-
-def _form(element: Element) -> tuple[Any, ...]:
-    """The declarations, in any order."""
-    return element.tag, tuple(sorted(element.attributes.items())), tuple(sorted(map(_form, element.children)))
-
-
-def _segments(reference: str) -> tuple[str, ...]:
-    return tuple(part for part in reference.replace(".", "::").split("::") if part)
-
-
-def _candidates(reference: str, element: Element) -> list[tuple[str, ...]]:
-    """The paths that ``reference`` can mean at ``element``, the nearest first."""
-    segments = _segments(reference)
-    if reference.startswith("::") or element.parent is None:
-        return [segments[1:] if segments[:1] == ("core",) else segments]
-    scope = element.parent.path
-    paths = [scope[:depth] + segments for depth in range(len(scope), -1, -1)]
-    return [*paths, segments[1:]] if segments[:1] == ("core",) else paths

@@ -9,16 +9,16 @@ from __future__ import annotations
 
 import functools
 from collections import ChainMap
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Mapping, MutableMapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from msgspec.structs import replace as replace_struct
+from msgspec.structs import replace
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, read
-from ucm_cts.harness.catalogue.requirements import SUITE, load_options, load_requirements
+from ucm_cts.harness.catalogue.requirements import SUITE, claims_of, load_interpretations, load_requirements
 from ucm_cts.harness.models.comparing import Comparing, Conventions, Declaration, Fact, Status
 from ucm_cts.harness.models.spellings import Element, read_models
 
@@ -31,6 +31,7 @@ CHECKS = {
     "no_policy_api": "Passive policies have no port elements.",
     "port_sides": "Who requires an interface and who provides it is as 10.1 tells it.",
     "extension_declarations": "Each declaration of 10.2 to 10.5 is there, with the kind, the attributes and the content it has there.",
+    "nothing_redefined": "Policies of 10.5 declare no port elements beside those of the policies that they extend.",
 }
 """The checks that the catalogue names among its rules, with the declarations that each compares."""
 
@@ -55,7 +56,7 @@ class Comparison:
 
 
 class Statement(Value, frozen=True):
-    """A requirement that repeats other declarations, or forbids a declaration."""
+    """A requirement that repeats other declarations, or forbids a declaration; it may be that of a declaration itself."""
 
     requirement: str
     check: str
@@ -63,7 +64,7 @@ class Statement(Value, frozen=True):
 
 
 class Catalogue(Value, frozen=True):
-    """The declarations of 10.1, or of 10.2 to 10.5, and the statements that repeat them."""
+    """The declarations of 10.1, or of 10.2 to 10.5, and what is said of several of them."""
 
     declarations: tuple[Declaration, ...]
     statements: tuple[Statement, ...]
@@ -77,10 +78,39 @@ class Models:
     check: str
     conventions: Conventions
 
+    @functools.cached_property
+    def catalogue(self) -> Catalogue:
+        """What ``declarations.yaml`` says of them. Raises ``DocumentError``."""
+        return read(self.folder / "declarations.yaml", Catalogue)
+
+    @functools.cached_property
+    def root(self) -> Element:
+        """What they declare. Raises ``DocumentError``."""
+        return read_models(sorted(self.folder.glob("*.xml")))[0]
+
+    @functools.cached_property
+    def declarations(self) -> Mapping[Element, Declaration]:
+        """The entry of ``declarations.yaml`` for each of their elements. Raises ``DocumentError``."""
+        by_source = {e.source: e for e in self.root.walk()}
+        trees = {element.where.partition(":")[0]: element.source for element in self.root.children}
+        declarations: dict[Element, Declaration] = {}
+        for declaration in self.catalogue.declarations:
+            source = trees[declaration.file]
+            found: Any = source.getroottree().xpath(declaration.place) if source is not None else []
+            if len(found) != 1:
+                problem = f"{declaration.place} is there {len(found)} times"
+                raise DocumentError(self.folder / "declarations.yaml", None, problem)
+            declarations[by_source[found[0]]] = declaration
+        for element, declaration in list(declarations.items()):
+            for inside in element.walk() if declaration.within else ():
+                declarations.setdefault(inside, replace(declaration, readings=(), beyond={}))
+        return declarations
+
 
 CORE = SUITE / "models" / "core"
+EXTENSIONS = SUITE / "models" / "extensions"
 
-_CORE = Models(
+CORE_MODELS = Models(
     CORE,
     "core_declarations",
     Conventions(
@@ -94,9 +124,10 @@ _CORE = Models(
         },
     ),
 )
-_EXTENSIONS = Models(
-    SUITE / "models" / "extensions", "extension_declarations", Conventions("extension-root", "root", {})
+EXTENSION_MODELS = Models(
+    EXTENSIONS, "extension_declarations", Conventions("extension-root", "root", {}, free=frozenset({"NativeType"}))
 )
+OWN_MODELS = (CORE_MODELS, EXTENSION_MODELS)
 
 
 def compare(paths: Sequence[Path], claims: Mapping[str, str] = {}, parts: Collection[str] = ()) -> Comparison:
@@ -107,82 +138,62 @@ def compare(paths: Sequence[Path], claims: Mapping[str, str] = {}, parts: Collec
     """
     files = [file for path in paths for file in (sorted(path.rglob("*.xml")) if path.is_dir() else (path,))]
     root, core = read_models(files)
+    printed = frozenset(element.path for models in OWN_MODELS for element in models.root.walk())
     results: list[ModelResult] = []
     readings: dict[str, frozenset[str]] = {}
-    for models in (_CORE, _EXTENSIONS):
-        ours, declarations = _ours(models)
-        if models is _EXTENSIONS:
-            of = {r.id: r.part for r in load_requirements()}
-            kept = [module for module in ours.children if of[declarations[module].requirement] in parts]
-            ours = replace(ours, children=kept)
-            declarations = {e: d for e, d in declarations.items() if of[d.requirement] in parts}
-        comparing = Comparing(declarations, ChainMap({}, claims, _first_values()), models.conventions)  # type: ignore[arg-type]  # only {} is written to
-        if files and declarations:
-            comparing.compare(ours, root, core)
-        readings |= {option: frozenset(values) for option, values in comparing.readings.items()}
-        results += _results(models, {d.requirement for d in declarations.values()}, comparing.facts)
+    for models in OWN_MODELS:
+        claimed = {e: d for e, d in models.declarations.items() if _is_claimed(d.requirement, parts)}
+        settled: MutableMapping[str, str] = ChainMap({}, claims, _first_values())  # type: ignore[arg-type]  # only {} is written to
+        comparing = Comparing(claimed, settled, models.conventions, printed)
+        if files and claimed:
+            comparing.compare(models.root, root, core)
+        for option, values in comparing.readings.items():
+            readings[option] = readings.get(option, frozenset()) | values
+        results += _results(models, parts, comparing.facts)
     return Comparison(tuple(results), readings)
 
 
 def checked() -> dict[str, frozenset[str]]:
     """The requirements of each check."""
     stands_for: dict[str, set[str]] = {name: set() for name in CHECKS}
-    for models in (_CORE, _EXTENSIONS):
-        catalogue = _catalogue(models)
-        stands_for[models.check] |= {d.requirement for d in catalogue.declarations}
-        for statement in catalogue.statements:
-            stands_for[statement.check].add(statement.requirement)
+    for models in OWN_MODELS:
+        for requirement, check in _checks(models).items():
+            stands_for[check].add(requirement)
     return {name: frozenset(requirements) for name, requirements in stands_for.items()}
 
 
-def core_catalogue() -> Catalogue:
-    """What ``declarations.yaml`` says of our own models of 10.1."""
-    return _catalogue(_CORE)
+@functools.cache
+def _checks(models: Models) -> Mapping[str, str]:
+    """The check of each requirement: first those about a declaration, then those about several only."""
+    of_several = {s.requirement: s.check for s in models.catalogue.statements}
+    return {d.requirement: models.check for d in models.catalogue.declarations} | of_several
 
 
 @functools.cache
-def _catalogue(models: Models) -> Catalogue:
-    return read(models.folder / "declarations.yaml", Catalogue)
+def _first_values() -> Mapping[str, str]:
+    return {option: values[0] for entry in load_interpretations() for option, values in entry.options.items()}
 
 
 @functools.cache
-def _first_values() -> dict[str, str]:
-    return {option: values[0] for option, values in load_options().items()}
+def _parts() -> Mapping[str, str]:
+    return {requirement.id: requirement.part for requirement in load_requirements()}
 
 
-@functools.cache
-def _ours(models: Models) -> tuple[Element, dict[Element, Declaration]]:
-    """The suite's models, and the entry of ``declarations.yaml`` for each of their elements."""
-    root, _ = read_models(sorted(models.folder.glob("*.xml")))
-    by_source = {e.source: e for e in root.walk()}
-    trees = {element.where.partition(":")[0]: element.source for element in root.children}
-    declarations: dict[Element, Declaration] = {}
-    for declaration in _catalogue(models).declarations:
-        source = trees[declaration.file]
-        found: Any = source.getroottree().xpath(declaration.place) if source is not None else []
-        if len(found) != 1:
-            raise DocumentError(
-                models.folder / "declarations.yaml", None, f"{declaration.place} is there {len(found)} times"
-            )
-        declarations[by_source[found[0]]] = declaration
-    for element, declaration in list(declarations.items()):
-        for inside in element.walk() if declaration.within else ():
-            declarations.setdefault(inside, replace_struct(declaration, readings=(), beyond={}))
-    return root, declarations
+def _is_claimed(requirement: str, parts: Collection[str]) -> bool:
+    """Is it of 10.1, or of one of the ``parts``?"""
+    part = _parts()[requirement]
+    return not part or any(one in parts for one in claims_of(part))
 
 
-def _results(
-    models: Models, compared: Collection[str], facts: Mapping[str, Mapping[str, Fact]]
-) -> Iterator[ModelResult]:
-    catalogue = _catalogue(models)
-    for requirement in dict.fromkeys(d.requirement for d in catalogue.declarations if d.requirement in compared):
-        yield _result(requirement, models.check, list(facts.get(requirement, {}).values()))
-    for statement in catalogue.statements:
-        all_of_it = list(facts.get(statement.requirement, {}).values())
-        for requirement, abouts in statement.of.items():
-            known = facts.get(requirement, {})
-            all_of_it += [known[about] for about in abouts if about in known]
-        yield _result(statement.requirement, statement.check, all_of_it)
+def _results(models: Models, parts: Collection[str], facts: Mapping[str, Mapping[str, Fact]]) -> Iterator[ModelResult]:
+    repeated = {statement.requirement: statement.of for statement in models.catalogue.statements}
+    for requirement, check in _checks(models).items():
+        if _is_claimed(requirement, parts):
+            all_of_it = list(facts.get(requirement, {}).values())
+            for other, abouts in repeated.get(requirement, {}).items():
+                known = facts.get(other, {})
+                all_of_it += [known[about] for about in abouts if about in known]
+            yield _result(requirement, check, all_of_it)
 
 
 def _result(requirement: str, check: str, facts: list[Fact]) -> ModelResult:

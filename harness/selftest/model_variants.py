@@ -1,4 +1,4 @@
-"""Conformant core models: each has what one reading of an open place of 10.1 makes of the printed ones."""
+"""Conformant models: each has what one reading of an open place of clause 10 makes of the printed ones."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from ucm_cts.harness.models.core_models import CORE, compare
+from ucm_cts.harness.catalogue.requirements import CLAIMABLE
+from ucm_cts.harness.models.core_models import CORE, EXTENSIONS, compare
 from ucm_cts.harness.selftest.matrix import Kill, VariantResult
 
 Edits = tuple[tuple[str, str], ...]
@@ -19,15 +20,16 @@ Edits = tuple[tuple[str, str], ...]
 
 @dataclass(frozen=True)
 class ModelVariant:
-    """Core models that differ from the suite's own in what an option leaves open.
+    """Models that differ from the suite's own in what an option leaves open.
 
     ``name``: its name.
     ``option``, ``value``: the reading that its vendor declares.
     ``edits``: of our own models.
     ``files``: the models that are edited, as a pattern without ``.xml``.
-    ``root``: where they stand: none, core or both, as in option core-root.
+    ``root``: where they stand, or those of the extensions if there are any: none, core or both, as in option core-root.
     ``concerned``: the requirements that fail if the vendor declares nothing, or the first value, and that is not ``observed``;
     otherwise those that fail if the vendor declares another value.
+    ``parts``: what is claimed of 10.2 to 10.5; without any there are only models of 10.1.
     """
 
     name: str
@@ -37,21 +39,29 @@ class ModelVariant:
     files: str = "*"
     root: str = "none"
     concerned: frozenset[str] = frozenset()
+    parts: tuple[str, ...] = ()
 
     def write(self, folder: Path) -> Sequence[Path]:
         """Write the models into ``folder``, which is empty; returns the folders that hold them."""
-        folders = {"none": ("root",), "core": ("core",), "both": ("root", "core")}[self.root]
-        for name in folders:
-            (folder / name).mkdir()
-            for path in CORE.glob("*.xml"):
-                text = path.read_text()
-                for pattern, replacement in self.edits if path.match(f"{self.files}.xml") else ():
-                    text = re.sub(pattern, replacement, text, flags=re.DOTALL)
-                if name == "core":
-                    inner = re.sub(r"<\?xml.*?\?>", "", text)
-                    text = f'<InteractionModule name="core">{inner}</InteractionModule>'
-                (folder / name / path.name).write_text(text)
-        return [folder / name for name in folders]
+        moved = EXTENSIONS if self.parts else CORE
+        for models in (CORE, *((EXTENSIONS,) if self.parts else ())):
+            for name in _FOLDERS[self.root if models is moved else "none"]:
+                (folder / name).mkdir(exist_ok=True)
+                for path in models.glob("*.xml"):
+                    (folder / name / path.name).write_text(self._edited(path, below_core=name == "core"))
+        return sorted(folder.iterdir())
+
+    def _edited(self, path: Path, below_core: bool) -> str:
+        text = path.read_text()
+        for pattern, replacement in self.edits if path.match(f"{self.files}.xml") else ():
+            text = re.sub(pattern, replacement, text, flags=re.DOTALL)
+        if not below_core:
+            return text
+        inner = re.sub(r"<\?xml.*?\?>", "", text)
+        return f'<InteractionModule name="core">{inner}</InteractionModule>'
+
+
+_FOLDERS = {"none": ("root",), "core": ("core",), "both": ("root", "core")}
 
 
 def _requirements(clause: str, *numbers: int) -> frozenset[str]:
@@ -65,6 +75,7 @@ _FIVE: Edits = (
 )
 _NARROW = '<StringType charBase="CHAR8" maxSize="255" name="log_message_t"/>'
 _ROOTS = frozenset({"R-10.1.2-03", "R-10.1.3.1-02", "R-10.1.4.2-07", "R-10.1.5.2-01", "R-10.1.6.2-01"})
+_EXTENSION_ROOTS = frozenset({"R-10.2-03", "R-10.3-07", "R-10.4.1.1-01", "R-10.4.2.1-01", "R-10.5.1-01"})
 
 _OTHERWISE = (
     ModelVariant(
@@ -161,6 +172,54 @@ _OTHERWISE = (
     ),
     ModelVariant("below_a_module_core", "core-root", "core", root="core", concerned=_ROOTS),
     ModelVariant("in_both_places", "core-root", "both", root="both"),
+    ModelVariant(
+        "extensions_below_a_module_core",
+        "extension-root",
+        "core",
+        root="core",
+        concerned=_EXTENSION_ROOTS,
+        parts=CLAIMABLE,
+    ),
+    ModelVariant("extensions_in_both_places", "extension-root", "both", root="both", parts=CLAIMABLE),
+    ModelVariant(
+        "active_components_with_periods",
+        "protected-active-applicability",
+        "onComponent",
+        (("onPort", "onComponent"),),
+        "*execution_policies",
+        concerned=_requirements("10.1.3.1", 7) | _requirements("10.5.1", 9, 12),
+        parts=CLAIMABLE,
+    ),
+    ModelVariant(
+        "active_ports_or_components_with_periods",
+        "protected-active-applicability",
+        "onBoth",
+        (("onPort", "onBoth"),),
+        "*execution_policies",
+        concerned=_requirements("10.1.3.1", 7) | _requirements("10.5.1", 9, 12),
+        parts=CLAIMABLE,
+    ),
+    ModelVariant(
+        "one_shot_without_slip",
+        "one-shot-name",
+        "schedule_trigger",
+        (("scheduler_trigger", "schedule_trigger"),),
+        concerned=_requirements("10.3.1", 14),
+        parts=("object-timers",),
+    ),
+    ModelVariant(
+        "repeated_timer_is_returned",
+        "repeated-result",
+        "timer",
+        (
+            (
+                '(name="max_rounds"[^>]*>)',
+                r'\1<Parameter name="timer" direction="RETURN" type="::timer::ott_timer::ucm_ott::ott_timer"/>',
+            ),
+        ),
+        concerned=_requirements("10.3.1", 15),
+        parts=("object-timers",),
+    ),
 )
 
 _AS_PRINTED = {
@@ -173,13 +232,18 @@ _AS_PRINTED = {
     "service-client-item": "service_intf",
     "service-port-api": "explicit",
 }
+_EXTENSIONS_AS_PRINTED = {"extension-root": "root", "one-shot-name": "scheduler_trigger", "repeated-result": "printed"}
 """What a vendor may declare of models that are as the suite's own."""
 
 
 @functools.cache
 def model_variants() -> Mapping[str, ModelVariant]:
     """All of them, by name."""
-    printed = (ModelVariant(f"printed {option}", option, value) for option, value in _AS_PRINTED.items())
+    printed = (
+        ModelVariant(f"printed {option}", option, value, parts=parts)
+        for values, parts in ((_AS_PRINTED, ()), (_EXTENSIONS_AS_PRINTED, CLAIMABLE))
+        for option, value in values.items()
+    )
     return {variant.name: variant for variant in (*_OTHERWISE, *printed)}
 
 
@@ -188,7 +252,7 @@ def examine_model_variant(name: str) -> VariantResult:
     began = time.monotonic()
     variant = model_variants()[name]
     with TemporaryDirectory() as folder:
-        compared = compare(variant.write(Path(folder)), {variant.option: variant.value})
+        compared = compare(variant.write(Path(folder)), {variant.option: variant.value}, variant.parts)
     wrong = [result for result in compared.results if result.status in ("broken", "unclear")]
     met = compared.readings.get(variant.option)
     failed = tuple(Kill(r.requirement, f"models: {name}", r.check, r.expected, r.observed, (), True, 1) for r in wrong)

@@ -1,14 +1,14 @@
-"""Mutants that ship core models with one defect; they are killed without running a framework."""
+"""Mutants that ship models with one defect; they are killed without running a framework."""
 
 from __future__ import annotations
 
 import time
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ucm_cts.harness.models.core_models import ModelResult
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult
-from ucm_cts.harness.selftest.spoilt_models import Mutation, declarations, repeating, spoilt_results, statements
+from ucm_cts.harness.selftest.spoilt_models import Mutation, Place, declarations, repeating, spoilt_results, statements
 
 Spoilt = tuple[Mutation, str, Mapping[str, ModelResult]]
 """A way to spoil models, the requirement that it must break, and what came of it."""
@@ -18,32 +18,34 @@ _CONTRADICTING = {"is": ("Union",), "there": ("dropped", "name=")}
 
 
 def all_models() -> tuple[str, ...]:
-    """The requirements on core models: those about one declaration, then those about several."""
-    return *declarations(), *statements()
+    """The requirements on models: those about a declaration, then those about several only."""
+    return tuple(dict.fromkeys((*declarations(), *statements())))
 
 
 def examine_models(requirement: str) -> MutantResult:
     """All ways to spoil the declarations of ``requirement``, as one mutant; it survives if one way does."""
-    if requirement in statements():
-        places = ", ".join(declarations()[of].place for of in statements()[requirement].of)
-        return _examined(requirement, f"what it says of {places}", _of_statement(requirement))
-    declaration = declarations()[requirement]
-    return _examined(requirement, f"{declaration.place} of {declaration.file}", _of_declaration(requirement))
+    places = declarations().get(requirement, ())
+    repeated = statements()[requirement].of if requirement in statements() else {}
+    what = [f"{place.path} of {place.file}" for place in places[:1]]
+    if repeated:
+        what.append(f"what it says of {', '.join(declarations()[of][0].path for of in repeated)}")
+    spoilt = (*_of_declarations(requirement, places), *_of_statement(requirement, repeated))
+    return _examined(requirement, ", or ".join(what), spoilt)
 
 
-def _of_declaration(requirement: str) -> Iterator[Spoilt]:
+def _of_declarations(requirement: str, places: Sequence[Place]) -> Iterator[Spoilt]:
     """What is changed inside a declaration may be the matter of another requirement, which then must fail."""
-    for mutation, results in spoilt_results(requirement):
+    for _, mutation, results in spoilt_results(requirement) if places else ():
         if mutation.clear:
             yield mutation, mutation.requirement, results
 
 
-def _of_statement(requirement: str) -> Iterator[Spoilt]:
-    """Its own requirement must fail beside that of the declaration."""
-    for declaration, facts in statements()[requirement].of.items():
+def _of_statement(requirement: str, repeated: Mapping[str, tuple[str, ...]]) -> Iterator[Spoilt]:
+    """Its own requirement must fail beside that of the declaration: the first of those that this speaks of."""
+    for declaration, facts in repeated.items():
         ways = tuple(way for fact in facts for way in _CONTRADICTING.get(fact, (f"{fact}=",)))
-        for mutation, results in spoilt_results(declaration):
-            if mutation.clear and mutation.what.startswith(ways):
+        for place, mutation, results in spoilt_results(declaration):
+            if mutation.clear and mutation.what.startswith(ways) and place == declarations()[declaration][0]:
                 yield mutation, requirement, results
 
 
@@ -64,7 +66,7 @@ def _examined(requirement: str, what: str, spoilt: Iterable[Spoilt]) -> MutantRe
                 shown[result.requirement].append((mutation, result))
     return MutantResult(
         f"models of {requirement}",
-        f"ships core models in which {what} is spoilt in one of {number} ways",
+        f"ships models in which {what} is spoilt in one of {number} ways",
         requirement.removeprefix("R-").rpartition("-")[0],
         tuple(sorted(due)),
         tuple(sorted((own | {also for each in due | own for also in repeating(each)}) - due)),

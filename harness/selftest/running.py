@@ -106,7 +106,7 @@ def _by_name(result: Result) -> str:
 
 
 def testable() -> tuple[str, ...]:
-    """The requirements that a property or a check of core models verifies, without permissions: nothing breaks those."""
+    """The requirements that a property or a check of models verifies, without permissions: nothing breaks those."""
     checks = PROPERTIES.keys() | CHECKS.keys() | HOST_CHECKS.keys()
     return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in checks for rule in r.rules))
 

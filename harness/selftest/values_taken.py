@@ -52,7 +52,8 @@ def _taken() -> Iterator[tuple[str, str, str]]:
             if option not in of_tool_chains and _concerns(framework.clauses, entries[option].id):
                 yield framework.name, option, value
     for models in model_variants().values():
-        yield f"models: {models.name}", models.option, models.value
+        if models.option in load_options():  # not one of a part that is in the making
+            yield f"models: {models.name}", models.option, models.value
     for tool_chain in variants().values():
         for reading in tool_chain.declares:
             option, _, value = reading.partition("=")

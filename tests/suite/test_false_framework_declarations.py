@@ -225,6 +225,8 @@ SAME_MODELS: Mapping[tuple[str, str, str], str] = {
     ("core-models", "shipped", "built-in"): "no models are compared then",
     ("core-root", "both", "core"): _BOTH_PLACES,
     ("core-root", "both", "none"): _BOTH_PLACES,
+    ("extension-root", "both", "core"): _BOTH_PLACES,
+    ("extension-root", "both", "root"): _BOTH_PLACES,
     ("port-trace-applicability", "onComponent", "onBoth"): _AS_PRINTED,
     ("port-trace-applicability", "onComponent", "onPort"): _AS_PRINTED,
 }
@@ -232,9 +234,9 @@ SAME_MODELS: Mapping[tuple[str, str, str], str] = {
 
 
 def false_models() -> Iterator[tuple[ModelVariant, str]]:
-    """Core models that are as one value of an option says, and another value that is declared of them."""
+    """Models that are as one value of an option says, and another value that is declared of them."""
     for models in model_variants().values():
-        for declared in load_options()[models.option]:
+        for declared in ENTRIES[models.option].options[models.option]:
             if declared not in (OBSERVED, models.value) and (models.option, models.value, declared) not in SAME_MODELS:
                 yield models, declared
 
@@ -243,8 +245,8 @@ def false_models() -> Iterator[tuple[ModelVariant, str]]:
     ("models", "declared"),
     [pytest.param(*case, id=f"{case[0].option}={case[1]}-{case[0].name}") for case in false_models()],
 )
-def test_core_models_that_are_otherwise_than_declared_are_found_out(
+def test_models_that_are_otherwise_than_declared_are_found_out(
     models: ModelVariant, declared: str, tmp_path: Path
 ) -> None:
-    compared = compare(models.write(tmp_path), {models.option: declared})
+    compared = compare(models.write(tmp_path), {models.option: declared}, models.parts)
     assert [result.requirement for result in compared.results if result.status == "broken"]

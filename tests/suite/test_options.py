@@ -15,13 +15,14 @@ from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.toolchain.program import Program, reference
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import (
+    CLAIMABLE,
     load_interpretations,
     load_life_cycle,
     load_options,
     load_requirements,
 )
 from ucm_cts.harness.execution.disguise import Disguise
-from ucm_cts.harness.models.core_models import CORE
+from ucm_cts.harness.models.core_models import CORE, EXTENSIONS
 from ucm_cts.harness.models.core_models import compare as compare_models
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
@@ -49,7 +50,7 @@ def test_every_option_is_consulted() -> None:
     consulted: set[str] = set()
     readings = ConsultedReadings(consulted)
     _decide_what_applies(msgspec.structs.replace(default_statement(), readings=readings))
-    compare_models([CORE], readings)
+    compare_models([CORE, EXTENSIONS], readings, CLAIMABLE)
     _compare_generated_files(consulted)
     for option in sorted(load_options().keys() - consulted):
         if _changes_selection(option):

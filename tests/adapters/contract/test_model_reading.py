@@ -12,7 +12,7 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import MOST_PROBLEMS, Problem, read_model
 from ucm_cts.adapters.contract.metamodel.spelling import LITERALS, SPELLINGS, TAGS, contained
 from ucm_cts.adapters.contract.metamodel.writing import Dialect, write_model
-from ucm_cts.harness.models.core_models import CORE
+from ucm_cts.harness.models.core_models import CORE, EXTENSIONS
 
 
 def problems(text: str) -> list[tuple[str, int]]:
@@ -68,8 +68,10 @@ def test_no_attribute_means_two_fields() -> None:
 # what is printed
 
 
-@pytest.mark.parametrize("path", sorted(CORE.glob("*.xml")), ids=lambda path: path.stem)
-def test_core_models_are_read_and_written(path: Path) -> None:
+@pytest.mark.parametrize(
+    "path", [*sorted(CORE.glob("*.xml")), *sorted(EXTENSIONS.glob("*.xml"))], ids=lambda path: path.stem
+)
+def test_models_of_the_platform_are_read_and_written(path: Path) -> None:
     reading = read_model(path.read_bytes(), path.name)
     assert reading.problems == ()
     again = read_model(write_model(reading.model), path.name)

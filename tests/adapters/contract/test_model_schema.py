@@ -15,7 +15,7 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.spelling import IGNORED, SPELLINGS, Spelling, contained
 from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.harness.catalogue.requirements import SUITE
-from ucm_cts.harness.models.core_models import CORE
+from ucm_cts.harness.models.core_models import CORE, EXTENSIONS
 from ucm_cts.harness.toolchains.corpus.printed_schema import PRINTED, printed_schema
 from ucm_cts.harness.toolchains.corpus.schema import SCHEMA, violations
 from ucm_cts.harness.toolchains.corpus.selection import questions
@@ -33,8 +33,10 @@ def judged(text: str) -> tuple[bool, bool, bool]:
     )
 
 
-@pytest.mark.parametrize("path", sorted(CORE.glob("*.xml")), ids=lambda path: path.stem)
-def test_core_models_fit(path: Path) -> None:
+@pytest.mark.parametrize(
+    "path", [*sorted(CORE.glob("*.xml")), *sorted(EXTENSIONS.glob("*.xml"))], ids=lambda path: path.stem
+)
+def test_models_of_the_platform_fit(path: Path) -> None:
     assert judged(write_model(read_model(path.read_bytes(), path.name).model).decode()) == (True, True, True)
 
 
@@ -122,7 +124,7 @@ def test_the_printed_schema_is_made_of_the_canonical_one() -> None:
 
 def test_models_fit_the_printed_schema_as_they_are_printed() -> None:
     schema = printed()
-    for path in (*CORE.glob("*.xml"), *MAPPING.glob("*.xml")):
+    for path in (*CORE.glob("*.xml"), *EXTENSIONS.glob("*.xml"), *MAPPING.glob("*.xml")):
         assert schema.validate(etree.parse(path)), (path, schema.error_log)
     legal = [q for q in questions() if q.due == "accept" and not q.under]
     assert [q.name for q in legal if not schema.validate(etree.fromstring(q.text))] == []
