@@ -127,12 +127,29 @@ class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
         });
     }
 
+    ucm_cts::LinkHandle link_with_types(const Handle&, const std::string& connector,
+                                        const std::map<std::string, ucm_cts::SharedType>& types) override {
+        lwucm::BoundTypes bound;
+        for (const auto& type : types) {
+            bound.emplace(type.first, reference_cpp::lwucm_type(*type.second));
+        }
+        return translate([&]() -> ucm_cts::LinkHandle { return manager_->create_link(connector, bound); });
+    }
+
     void attach(const ucm_cts::LinkHandle& link, const std::string& role, const Handle& container, ucm_cts::Id id,
                 const std::string& port) override {
         static const std::map<std::string, lwucm::Role> roles = {{"client", lwucm::Role::client},
                                                                  {"server", lwucm::Role::server},
                                                                  {"emitter", lwucm::Role::emitter},
-                                                                 {"receiver", lwucm::Role::receiver}};
+                                                                 {"receiver", lwucm::Role::receiver},
+                                                                 {"rr_synchronous_client",
+                                                                  lwucm::Role::rr_synchronous_client},
+                                                                 {"rr_synchronous_server",
+                                                                  lwucm::Role::rr_synchronous_server},
+                                                                 {"rr_asynchronous_client",
+                                                                  lwucm::Role::rr_asynchronous_client},
+                                                                 {"rr_asynchronous_server",
+                                                                  lwucm::Role::rr_asynchronous_server}};
         translate([&] {
             of_link(link).attach(roles.at(role), shared(container), static_cast<lwucm::componentId>(id), port);
         });

@@ -20,7 +20,7 @@ from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.container_calls import AddComponent, GetComponents
-from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.programming_model import (
     BadParameter,
     ContainerInterface,
@@ -51,10 +51,11 @@ class Case(Value, frozen=True):
     trace: tuple[str, ...]
     patience: int = 2000
     interfaces: dict[str, Interface] = {}
+    types: dict[str, dict[str, AnyType]] = {}
 
     @property
     def scenario(self) -> Scenario:
-        return Scenario(self.components, self.steps, self.patience, self.interfaces)
+        return Scenario(self.components, self.steps, self.patience, self.interfaces, types=self.types)
 
 
 FOLDER = Path(m.__file__).parents[2] / "suite" / "host_conformance"

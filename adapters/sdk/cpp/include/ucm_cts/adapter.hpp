@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -190,7 +191,7 @@ class Adapter {
     /// How the framework spells the name of a port element at its API.
     virtual std::string port_element_name() const { return "{port}_{element}"; }
 
-    // What profile core needs beside; what an adapter does not override stays untested.
+    // What profiles core and extensions need beside; what an adapter does not override stays untested.
 
     /// Makes a connection without ends (9.5.5.4) with a `connector` of 10.1, `simple_service_connector` or
     /// `simple_message_connector`, bound to `interface`.
@@ -199,13 +200,20 @@ class Adapter {
         throw NotOffered();
     }
 
-    /// Makes the port element an end of `link`, in the `role` of `client`, `server`, `emitter` or `receiver`.
+    /// Makes a connection without ends with a `connector` of 10.4, bound to data `types` by template parameter.
+    virtual LinkHandle link_with_types(const ContainerHandle& /*manager*/, const std::string& /*connector*/,
+                                       const std::map<std::string, SharedType>& /*types*/) {
+        throw NotOffered();
+    }
+
+    /// Makes the port element an end of `link`, in the `role` of `client`, `server`, `emitter` or `receiver`. If `role`
+    /// is a connector port of 10.4, `port_name` is the name of a port, with all its port elements.
     virtual void attach(const LinkHandle& /*link*/, const std::string& /*role*/, const ContainerHandle& /*container*/,
                         Id /*comp_instance*/, const std::string& /*port_name*/) {
         throw NotOffered();
     }
 
-    /// The port element is no longer an end of `link`.
+    /// The port element, or the port, is no longer an end of `link`.
     virtual void detach(const LinkHandle& /*link*/, const ContainerHandle& /*container*/, Id /*comp_instance*/,
                         const std::string& /*port_name*/) {
         throw NotOffered();

@@ -205,10 +205,15 @@ class Operations {
                 break;
             case Operation::invoke:
                 return returned(number, with.reference->exchange(step.value));
-            case Operation::link:
-                variables_.bind_link(step.bind, adapter_->link(manager_, step.connector,
-                                                               scenario_->interfaces.at(step.interface)));
+            case Operation::link: {
+                const auto types = scenario_->types.find(step.interface);
+                variables_.bind_link(
+                    step.bind,
+                    types != scenario_->types.end()
+                        ? adapter_->link_with_types(manager_, step.connector, types->second)
+                        : adapter_->link(manager_, step.connector, scenario_->interfaces.at(step.interface)));
                 break;
+            }
             case Operation::attach:
                 adapter_->attach(with.link, step.role, with.container, with.id, step.port);
                 break;

@@ -15,6 +15,7 @@
 
 #include "ucm_cts/adapter.hpp"
 #include "ucm_cts/data_types.hpp"
+#include "ucm_cts/memory.hpp"
 #include "ucm_cts/scenario.hpp"
 #include "ucm_cts/stage.hpp"
 
@@ -31,7 +32,8 @@ class Probe {
   public:
     Probe(std::shared_ptr<Stage> stage, std::shared_ptr<const Scenario> scenario, const Component& component,
           int instance)
-        : stage_(std::move(stage)), scenario_(std::move(scenario)), component_(component), instance_(instance) {
+        : stage_(std::move(stage)), scenario_(std::move(scenario)), component_(component), instance_(instance),
+          memory_(component.second) {
         for (const Action& action : plan_of(Hook::method)) {
             if (action.kind == Action::Kind::count) {
                 messages_ = stage_->messages.of(name(), instance_);
@@ -94,8 +96,9 @@ class Probe {
         if (!sound || messages_) {
             entered.wrong(in_words(arguments));
         }
-        record(entered);
-        perform(Hook::method, nullptr);
+        const Entry now = {method, given};
+        memory_.enter(now, [this, &entered] { record(entered); });
+        perform(Hook::method, nullptr, &now);
         return answer(method, given);
     }
 
@@ -177,7 +180,8 @@ class Probe {
     events::Request request(const std::string& port) const { return events::Request(name(), instance_, port); }
     events::Reply reply(const std::string& port) const { return events::Reply(name(), instance_, port); }
 
-    void perform(Hook hook, std::int32_t* result) {
+    // `now` is the entry at a method in which the plan is performed, if it is one.
+    void perform(Hook hook, std::int32_t* result, const Entry* now = nullptr) {
         for (const Action& action : plan_of(hook)) {
             switch (action.kind) {
                 case Action::Kind::raise:
@@ -198,9 +202,7 @@ class Probe {
                     query_siblings();
                     break;
                 case Action::Kind::call_method:
-                    for (const Reference& reference : references(action.port)) {
-                        call_method(action, *reference);
-                    }
+                    call_method(action, now);
                     break;
                 case Action::Kind::burst:
                     for (const Reference& reference : references(action.port)) {
@@ -225,9 +227,18 @@ class Probe {
         }
     }
 
-    void call_method(const Action& action, PortElement& callee) {
-        const std::shared_ptr<Data> arguments = buffer(action.arguments);
-        record(request(action.port).method(action.method).arguments(action.arguments));
+    void call_method(const Action& action, const Entry* now) {
+        Data given;
+        if (memory_.arguments(action, now, given)) {
+            for (const Reference& reference : references(action.port)) {
+                call_method(action, given, *reference);
+            }
+        }
+    }
+
+    void call_method(const Action& action, const Data& given, PortElement& callee) {
+        const std::shared_ptr<Data> arguments = buffer(given);
+        record(request(action.port).method(action.method).arguments(given));
         events::Reply replied = reply(action.port);
         try {
             put(replied, callee.call(action.method, *arguments));
@@ -319,6 +330,7 @@ class Probe {
     const Component& component_;
     const int instance_;
     Occupancy occupancy_;
+    Memory memory_;
     std::shared_ptr<MessageCount> messages_;  // if the plan says so
     std::mutex mutex_;
     std::vector<PortConnection> connections_;

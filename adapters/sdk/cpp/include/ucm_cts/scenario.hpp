@@ -48,9 +48,9 @@ inline void check(const Scenario& scenario) {
         }
     }
     for (std::size_t number = 0; number < scenario.steps.size(); ++number) {
-        if (scenario.steps[number].kind == Operation::link) {
-            check_interface(scenario, scenario.steps[number].interface,
-                            "steps[" + std::to_string(number) + "].interface");
+        const Step& step = scenario.steps[number];
+        if (step.kind == Operation::link && scenario.types.count(step.interface) == 0) {
+            check_interface(scenario, step.interface, "steps[" + std::to_string(number) + "].interface");
         }
     }
 }

@@ -1,7 +1,8 @@
-// Connections with connectors (9.5.5.4, 10.1.5, 10.1.6).
+// Connections with connectors (9.5.5.4, 10.1.5, 10.1.6, 10.4.1).
 #ifndef LWUCM_LINKS_HPP
 #define LWUCM_LINKS_HPP
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -13,8 +14,22 @@ namespace lwucm {
 /// The connectors that a runtime has.
 extern const char* const SIMPLE_SERVICE_CONNECTOR;
 extern const char* const SIMPLE_MESSAGE_CONNECTOR;
+extern const char* const REQUEST_RESPONSE_CONNECTOR;
 
-enum class Role { client, server, emitter, receiver };
+/// What a port element is attached as; the last four are the connector ports of 10.4.1, for a port with all its elements.
+enum class Role {
+    client,
+    server,
+    emitter,
+    receiver,
+    rr_synchronous_client,
+    rr_synchronous_server,
+    rr_asynchronous_client,
+    rr_asynchronous_server
+};
+
+/// The data types that a connector is bound to, by template parameter.
+typedef std::map<std::string, TypePtr> BoundTypes;
 
 /// comm_ecode (10.1.2), what push returns.
 TypePtr comm_ecode_type();
@@ -28,7 +43,7 @@ class Link {
   public:
     virtual ~Link() = default;
 
-    /// Makes a port element an end. NOT_FOUND if the container has no such component; BAD_PARAMETER if the connector
+    /// Makes a port element, or a port of 10.4.1, an end. NOT_FOUND if the container has no such component; BAD_PARAMETER if the connector
     /// has no such role, or the component no such port element with the interface of the link; UCM_ERROR if the
     /// container is started, the required port element is connected already, or the service has its server.
     virtual void attach(Role role, const std::shared_ptr<Container>& container, componentId component,

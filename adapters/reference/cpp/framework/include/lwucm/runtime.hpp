@@ -21,6 +21,9 @@ class Runtime : public virtual ContainerManager {
     /// A connection without ends. BAD_PARAMETER if there is no such connector, or it does not go with the interface.
     virtual std::shared_ptr<Link> create_link(const std::string& connector, const InterfacePtr& interface) = 0;
 
+    /// A connection without ends with a connector of 10.4. BAD_PARAMETER if there is none for such types.
+    virtual std::shared_ptr<Link> create_link(const std::string& connector, const BoundTypes& types) = 0;
+
     /// All records of the trace (10.1.4.2) so far, oldest first.
     virtual std::vector<LogRecord> trace_records() = 0;
 };

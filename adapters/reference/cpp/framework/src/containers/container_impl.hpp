@@ -72,6 +72,7 @@ class ManagerImpl : public ContainerImpl, public Runtime {
     void remove_container(std::shared_ptr<Container> subContainer) override;
     void destroy() override;
     std::shared_ptr<Link> create_link(const std::string& connector, const InterfacePtr& interface) override;
+    std::shared_ptr<Link> create_link(const std::string& connector, const BoundTypes& types) override;
     std::vector<LogRecord> trace_records() override { return shared_->platform.trace->records(); }
 
   private:

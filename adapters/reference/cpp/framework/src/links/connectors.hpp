@@ -1,4 +1,4 @@
-// The connectors of clause 10.1.
+// The connectors of clauses 10.1 and 10.4.1.
 #ifndef LWUCM_SRC_CONNECTORS_HPP
 #define LWUCM_SRC_CONNECTORS_HPP
 
@@ -12,6 +12,10 @@ std::shared_ptr<Link> make_service_connector(std::shared_ptr<Shared> shared, Int
 /// simple_message_connector (10.1.6): each message that an emitter pushes goes to each receiver. BAD_PARAMETER if the
 /// interface is not message_intf.
 std::shared_ptr<Link> make_message_connector(std::shared_ptr<Shared> shared, InterfacePtr interface);
+
+/// request-response_connector (10.4.1): clients ask a server, and wait or get the response later. BAD_PARAMETER if the
+/// types are not those of request and response.
+std::shared_ptr<Link> make_request_response_connector(std::shared_ptr<Shared> shared, const BoundTypes& types);
 
 }  // namespace lwucm
 

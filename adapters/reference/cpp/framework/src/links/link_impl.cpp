@@ -8,19 +8,16 @@
 
 namespace lwucm {
 
-LinkImpl::LinkImpl(std::shared_ptr<Shared> shared, InterfacePtr interface)
-    : shared_(std::move(shared)), interface_(std::move(interface)) {}
-
-void LinkImpl::attach(Role role, const std::shared_ptr<Container>& container, componentId component,
+void ElementLink::attach(Role role, const std::shared_ptr<Container>& container, componentId component,
                       const std::string& port) {
     Operation operation(*shared_);
     const ContainerImpl& its_container = own(container);
-    const std::shared_ptr<Instance> instance = its_container.find(component);
+    const std::shared_ptr<Instance> instance = find(its_container, component);
     if (!has_role(role)) {
         throw BAD_PARAMETER("the connector has no such role");
     }
-    check_port(*instance, role, port);
-    its_container.check_configuring();
+    check_port(*instance, is_sender(role), port, *interface_);
+    check_configuring(its_container);
     if (is_sender(role)) {
         attach_sender(*instance, port);
     } else {
@@ -28,17 +25,17 @@ void LinkImpl::attach(Role role, const std::shared_ptr<Container>& container, co
     }
 }
 
-void LinkImpl::detach(const std::shared_ptr<Container>& container, componentId component, const std::string& port) {
+void ElementLink::detach(const std::shared_ptr<Container>& container, componentId component, const std::string& port) {
     Operation operation(*shared_);
     const ContainerImpl& its_container = own(container);
-    const std::shared_ptr<Instance> instance = its_container.find(component);
-    const auto found = std::find_if(ends_.begin(), ends_.end(), [&](const std::shared_ptr<End>& end) {
+    const std::shared_ptr<Instance> instance = find(its_container, component);
+    const auto found = std::find_if(ends().begin(), ends().end(), [&](const std::shared_ptr<End>& end) {
         return &end->instance() == instance.get() && end->port() == port;
     });
-    if (found == ends_.end()) {
+    if (found == ends().end()) {
         throw NOT_FOUND(quoted(port) + " is no end of the link");
     }
-    its_container.check_configuring();
+    check_configuring(its_container);
     Attempts attempts;
     remove(*found, attempts);
     attempts.check();
@@ -54,6 +51,12 @@ void LinkImpl::withdraw(const Instance& instance, Attempts& attempts) {
     }
 }
 
+std::shared_ptr<Instance> LinkImpl::find(const ContainerImpl& container, componentId component) {
+    return container.find(component);
+}
+
+void LinkImpl::check_configuring(const ContainerImpl& container) { container.check_configuring(); }
+
 ContainerImpl& LinkImpl::own(const std::shared_ptr<Container>& container) const {
     ContainerImpl* const known = dynamic_cast<ContainerImpl*>(container.get());
     if (known == nullptr || !known->is_of(*shared_)) {
@@ -62,17 +65,18 @@ ContainerImpl& LinkImpl::own(const std::shared_ptr<Container>& container) const 
     return *known;
 }
 
-void LinkImpl::check_port(const Instance& instance, Role role, const std::string& port) const {
-    if (!(is_sender(role) ? instance.requires_port(port) : instance.provides(port))) {
+void LinkImpl::check_port(const Instance& instance, bool is_required, const std::string& port,
+                          const Interface& interface) {
+    if (!(is_required ? instance.requires_port(port) : instance.provides(port))) {
         throw BAD_PARAMETER("the component has no such port element " + quoted(port));
     }
-    const InterfacePtr interface = instance.interface_of(port);
-    if (!interface || !same_interface(*interface, *interface_)) {
+    const InterfacePtr its_interface = instance.interface_of(port);
+    if (!its_interface || !same_interface(*its_interface, interface)) {
         throw BAD_PARAMETER(quoted(port) + " has another interface than the link");
     }
 }
 
-void LinkImpl::attach_sender(Instance& instance, const std::string& port) {
+void ElementLink::attach_sender(Instance& instance, const std::string& port) {
     if (instance.is_connected(port)) {
         throw UCM_ERROR(quoted(port) + " is already connected");
     }
@@ -84,12 +88,16 @@ void LinkImpl::attach_sender(Instance& instance, const std::string& port) {
     add(end);
 }
 
-void LinkImpl::attach_taker(Instance& instance, const std::string& port) {
-    for (const std::shared_ptr<End>& end : ends_) {
+void ElementLink::attach_taker(Instance& instance, const std::string& port) {
+    for (const std::shared_ptr<End>& end : ends()) {
         if (&end->instance() == &instance && end->port() == port) {
             throw UCM_ERROR(quoted(port) + " is an end of the link already");
         }
     }
+    add(make_taker(instance, port, ask(instance, port)));
+}
+
+std::shared_ptr<DynamicPortElement> LinkImpl::ask(Instance& instance, const std::string& port) {
     std::shared_ptr<PortElementObject> element;
     Attempts attempts;
     attempts.make("get_portElement", [&] { element = instance.ask_port_element(port); });
@@ -98,7 +106,7 @@ void LinkImpl::attach_taker(Instance& instance, const std::string& port) {
     if (!dynamic) {
         throw BAD_PARAMETER("the component gives nothing for " + quoted(port) + " that a connector can call");
     }
-    add(make_taker(instance, port, dynamic));
+    return dynamic;
 }
 
 void LinkImpl::add(const std::shared_ptr<End>& end) {

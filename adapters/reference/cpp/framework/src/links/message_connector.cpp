@@ -103,11 +103,11 @@ class ImmediateReceiver final : public Receiver {
 };
 
 /// Each message that an emitter pushes goes to each receiver.
-class MessageConnector final : public LinkImpl {
+class MessageConnector final : public ElementLink {
   public:
     /// BAD_PARAMETER if the interface is not message_intf.
     MessageConnector(std::shared_ptr<Shared> shared, InterfacePtr interface)
-        : LinkImpl(std::move(shared), std::move(interface)), receivers_(std::make_shared<const Receivers>()) {
+        : ElementLink(std::move(shared), std::move(interface)), receivers_(std::make_shared<const Receivers>()) {
         check_is_message_interface(*get_interface());
     }
 

@@ -54,9 +54,9 @@ Values read_reply(const Method& method, const Bytes& bytes) {
 }
 
 /// Calls of clients are carried out by the server, and the clients wait.
-class ServiceConnector final : public LinkImpl {
+class ServiceConnector final : public ElementLink {
   public:
-    using LinkImpl::LinkImpl;
+    using ElementLink::ElementLink;
 
     bool needs(const Instance& instance) const override {
         const std::shared_ptr<Server> its_server = server();

@@ -22,9 +22,19 @@ final class Actions {
 
     /** Carries {@code action} out; kinds that are not listed have no effect at this hook. */
     void act(Action action) {
+        act(action, null);
+    }
+
+    /** Carries {@code action} out in {@code entry} at a method, or in none. */
+    void act(Action action, Memory.Entry entry) {
         switch (action.tag()) {
             case "call" -> referencesOf(action).forEach(reference -> exchange(action, reference));
-            case "call_method" -> referencesOf(action).forEach(reference -> call(action, reference));
+            case "call_method" -> {
+                List<Object> given = probe.memory.arguments(action, entry);
+                if (given != null) {
+                    referencesOf(action).forEach(reference -> call(action, given, reference));
+                }
+            }
             case "burst" -> referencesOf(action).forEach(reference -> push(action, reference));
             case "hold" -> {
                 String gate = action.gate();
@@ -53,11 +63,11 @@ final class Actions {
         probe.record("reply", "port", port, "value", result);
     }
 
-    private void call(Action action, PortElement reference) {
+    private void call(Action action, List<Object> given, PortElement reference) {
         String port = action.port();
         String method = action.method();
-        List<Object> arguments = Data.copy(action.arguments());
-        probe.record("request", "port", port, "method", method, "arguments", action.arguments());
+        List<Object> arguments = Data.copy(given);
+        probe.record("request", "port", port, "method", method, "arguments", given);
         try {
             reply(action, reference.call(method, arguments), null);
         } catch (DeclaredException error) {

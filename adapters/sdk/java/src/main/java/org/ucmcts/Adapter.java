@@ -55,14 +55,22 @@ public abstract class Adapter<C> {
     /** {@code destroy} the runtime. Also called after a scenario that has not done so, with any outcome ignored. */
     public abstract void destroy(C manager) throws Exception;
 
-    // What profile core needs beside; what an adapter does not override stays untested.
+    // What profiles core and extensions need beside; what an adapter does not override stays untested.
 
     /** Makes a connection without ends (9.5.5.4) with a {@code connector} of 10.1, bound to {@code type}. */
     public Object link(C manager, String connector, Node type) throws Exception {
         throw new NotOffered();
     }
 
-    /** Makes the port element an end of {@code link}, in the {@code role} of client, server, emitter or receiver. */
+    /** Makes a connection without ends with a {@code connector} of 10.4, bound to data {@code types} by template parameter. */
+    public Object linkWithTypes(C manager, String connector, Node types) throws Exception {
+        throw new NotOffered();
+    }
+
+    /**
+     * Makes the port element an end of {@code link}, in the {@code role} of client, server, emitter or receiver. If
+     * {@code role} is a connector port of 10.4, {@code port} is the name of a port, with all its port elements.
+     */
     public void attach(Object link, String role, C container, int component, String port) throws Exception {
         throw new NotOffered();
     }

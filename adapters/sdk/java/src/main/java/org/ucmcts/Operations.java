@@ -139,9 +139,11 @@ final class Operations<C> {
     private Operation prepareOptional(Step step) throws Unbound {
         switch (step.tag()) {
             case "link" -> {
-                Node type = scenario.interfaces().get(step.interface_());
-                return silent(() -> variables.bindLink(
-                        step.bind(), adapter.link(manager, step.connector(), type)));
+                Object types = scenario.types().get(step.interface_());
+                Node type = types == null ? scenario.interfaces().get(step.interface_()) : (Node) types;
+                return silent(() -> variables.bindLink(step.bind(), types == null
+                        ? adapter.link(manager, step.connector(), type)
+                        : adapter.linkWithTypes(manager, step.connector(), type)));
             }
             case "attach", "detach" -> {
                 Object link = variables.link(step.link());

@@ -25,12 +25,14 @@ class Probe implements Body {
     private final Runnable execution;
     private final Map<String, String> attributes = Collections.synchronizedMap(new LinkedHashMap<>());
     private final Actions actions;
+    final Memory memory;
 
     private Probe(Stage stage, String component, Declaration declaration) {
         this.stage = stage;
         this.component = component;
         instance = stage.count(component);
         plan = declaration.plan();
+        memory = new Memory(plan);
         actions = new Actions(this);
         for (String port : declaration.provides()) {
             ports.put(port, new Port(this, port));
@@ -195,7 +197,9 @@ class Probe implements Body {
         }
         List<Object> given = isSound ? Data.copy(arguments) : List.of();
         String wrong = isSound && !counts ? null : Data.inWords(arguments);
-        record("enter", "hook", "method", "port", port, "method", method, "arguments", given, "wrong", wrong);
+        Memory.Entry entry = new Memory.Entry(method, given);
+        memory.enter(entry, () -> record(
+                "enter", "hook", "method", "port", port, "method", method, "arguments", given, "wrong", wrong));
         Action answer = null;
         for (Action action : actions("method")) {
             if (action.tag().equals("raise")) {
@@ -203,7 +207,7 @@ class Probe implements Body {
                 throw new PlannedFailure(component, method);
             }
             if (!action.tag().equals("answer")) {
-                actions.act(action);
+                actions.act(action, entry);
             } else if (action.method().equals(method)) {
                 answer = action;
             }
