@@ -33,7 +33,9 @@ from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.cli.commands import cli
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.report.published import by_product, read_published
@@ -272,6 +274,22 @@ def test_example_scenario(here: Path) -> None:
     scenario = to_scenario(script)
     trace = answer(m.Run(1, scenario)).events
     assert set(script.exercises) <= set(Monitor(load_life_cycle()).judge(scenario, trace).exercises)
+
+
+def test_request_response_guide(here: Path) -> None:
+    write_files("docs/request-response.md")
+    (replayed,) = [c for c in commands("ucm-cts replay") if "requests.yaml" in c]
+    outcome = ucm_cts(*replayed.split()[1:])
+    assert (outcome.status, outcome.err) == (0, "")
+    assert "\nno findings" in outcome.out
+    (script,) = read_scripts(here / "requests.yaml")
+    with Driver(locate("reference-py", in_process=True), 1) as driver:
+        (answered,) = driver.run([("an example", to_scenario(script))])
+    judged = Monitor(load_life_cycle()).judge(answered.disguised, answered.trace)
+    assert set(script.exercises) <= set(judged.exercises)
+    (ran,) = [c for c in commands("ucm-cts run") if "--profile extensions" in c]
+    assert ucm_cts(*ran.split()[1:], "--explore", "0s").status == 0
+    assert report_of(here / "ucm-cts-report")["profile"] == "extensions"
 
 
 def test_words_of_scenarios() -> None:
