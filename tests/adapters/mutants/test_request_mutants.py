@@ -1,0 +1,93 @@
+"""Mutants of request-response (10.4.1) fail for the right reason; variants and the reference framework do not fail."""
+
+from __future__ import annotations
+
+import msgspec
+import pytest
+from performing import answer
+from pipeline import TakesTooLong, bounded, check_killed, check_wording, spilled
+
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.scenario import Pause, Scenario
+from ucm_cts.adapters.mutants.python import REQUESTS, Mutant, mutants_of, variants_of
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.derived.request_response import request_purposes
+from ucm_cts.harness.selftest.trials import Thoroughness, all_variants, examine_variant
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
+
+pytestmark = pytest.mark.slow
+
+SHORT = 0.2
+"""Of the patience of scenarios: what a mutant never does is not waited for longer."""
+
+
+def asked(whole: Scenario) -> Scenario:
+    """The scenario in disguise, because frameworks make the names of port elements of those of ports."""
+    short = msgspec.structs.replace(whole, patience=int(whole.patience * SHORT))
+    return Disguise(1, ReferenceAdapter.port_element_name).scenario(short)
+
+
+def failing(mutant: Mutant) -> dict[str, str]:
+    """Failing requirements, each with an example, until all that the mutant breaks have failed; of its own purposes only."""
+    monitor = Monitor(load_life_cycle(), Ics(mutant.readings))
+    found: dict[str, str] = {}
+    own = [p for p in request_purposes() if {*p.requirements} & {*mutant.requirements}]
+    for name, whole in (case for purpose in own for case in purpose.scenarios):
+        scenario = asked(whole)
+        try:
+            with bounded(scenario):
+                reply = answer(scenario, mutant.adapter)
+        except TakesTooLong:
+            break
+        assert isinstance(reply, Traced), (name, reply)
+        assert contradiction(scenario, reply.events, reply.stuck) is None, name
+        findings = monitor.judge(scenario, reply.events).findings
+        check_wording(scenario, findings)
+        for finding in findings:
+            found.setdefault(finding.requirement, _reported(name, finding))
+        if found.keys() >= set(mutant.requirements):
+            break
+    return found
+
+
+def _reported(name: str, finding: Finding) -> str:
+    return f"{name}: expected {finding.expected}; observed {finding.observed}"
+
+
+@pytest.mark.parametrize("mutant", mutants_of(REQUESTS).values(), ids=mutants_of(REQUESTS).keys())
+def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
+    found = failing(mutant)
+    if not found.keys() >= set(mutant.requirements) or spilled(mutant, found):
+        check_killed(mutant)
+
+
+@pytest.mark.parametrize("name", variants_of(REQUESTS))
+def test_conformant_framework_is_not_failed(name: str) -> None:
+    result = examine_variant(all_variants()[name], Thoroughness())
+    assert (result.failed, result.incidents, result.trouble) == ((), (), "")
+
+
+def test_each_requirement_arises_and_is_kept() -> None:
+    """On the reference framework, in the scenarios of this part alone."""
+    monitor = Monitor(load_life_cycle())
+    kept: set[str] = set()
+    for name, whole in (case for purpose in request_purposes() for case in purpose.scenarios):
+        if any(isinstance(step, Pause) for step in whole.steps) and "broken" in name and "synchronous to" not in name:
+            continue
+        scenario = asked(whole)
+        reply = answer(scenario)
+        assert isinstance(reply, Traced)
+        judged = monitor.judge(scenario, reply.events)
+        assert judged.findings == [], name
+        kept |= judged.exercises.keys()
+    due = {r.id for r in requirements_of("extensions") if r.part == "request-response" and r.rules}
+    assert {one for one in due if "extension_declarations" not in _rules(one)} <= kept
+
+
+def _rules(requirement: str) -> tuple[str, ...]:
+    return next(r.rules for r in requirements_of("extensions") if r.id == requirement)
