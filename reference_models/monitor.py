@@ -5,13 +5,13 @@ from __future__ import annotations
 import functools
 from collections import defaultdict
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.reference_models.causes import Causes
 from ucm_cts.reference_models.model.callback_history import Callback, CallbackHistory
+from ucm_cts.reference_models.model.changing import Changing
 from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
 from ucm_cts.reference_models.model.ics import Ics
@@ -67,11 +67,11 @@ class Monitor:
             findings[:] = map(Namer(scenario, trace).named, findings)
         if len(findings) > 1 and isinstance(trace, tuple | list):
             findings[:] = Causes(scenario, trace, reader.runtime.bodies).linked(findings)
+        reader.runtime.dissolve()
         return reader.verdicts
 
 
-@dataclass(slots=True)
-class _Thread:
+class _Thread(Changing):
     """What one thread is doing.
 
     ``inside``: the bodies that it executes; ``served``: the calls that led there.
@@ -81,8 +81,8 @@ class _Thread:
 
     inside: list[tuple[str, int]]
     calls: list[BusinessCall] | None = None
-    hooks: list[s.Hook] = field(default_factory=list)
-    served: list[BusinessCall | None] = field(default_factory=list)
+    hooks: list[s.Hook] = []
+    served: list[BusinessCall | None] = []
 
 
 class _TraceReader:
@@ -100,6 +100,7 @@ class _TraceReader:
         self.steps = scenario.steps
         self.runtime = ObservedRuntime(scenario, monitor.ics, "interactions" in features)
         self.evaluate = functools.partial(self.verdicts.evaluate, self.runtime)
+        self.evaluate_with = functools.partial(self.verdicts.evaluate_with, self.runtime)
         self.ongoing: OperationInProgress | None = None
         self.histories = defaultdict[tuple[str, int], CallbackHistory](CallbackHistory)
         self.calls: list[list[BusinessCall]] = []
@@ -154,10 +155,10 @@ class _TraceReader:
         if ongoing is not None and ongoing.step_number == event.step:
             conclude(runtime, ongoing, event, self.monitor.expected)
             ended = self.table.ended_after_removal if ongoing.is_after_removal else self.table.ended
-            self.evaluate(ended[ongoing.operation], ongoing)
+            self.evaluate_with(ended[ongoing.operation], ongoing)
             unsettled = self.table.unsettled[ongoing.operation]
             if unsettled and not ongoing.judged and not ongoing.is_after_removal and not verdicts.findings:
-                self.evaluate(unsettled, ongoing)
+                self.evaluate_with(unsettled, ongoing)
             if verdicts.suspended:
                 self.suspend()
             apply(runtime, ongoing, event)
@@ -221,12 +222,12 @@ class _TraceReader:
         ongoing, runtime = self.ongoing, self.runtime
         member = runtime.bodies.get(body)
         callback = Callback(event, member, ongoing, history)
-        self.evaluate(self.table.entered[hook], callback)
+        self.evaluate_with(self.table.entered[hook], callback)
         if self.verdicts.suspended:
             self.suspend()
         unclear = self.table.unclear[hook]
         if unclear and not self.verdicts.findings:
-            self.evaluate(unclear, callback)
+            self.evaluate_with(unclear, callback)
         history.add(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
@@ -237,7 +238,7 @@ class _TraceReader:
                 runtime.starting_up[body] = event.thread
         runtime.changed()
         if ongoing is not None:
-            ongoing.add(event)
+            ongoing.add(event, body)
 
     def changes(self, member: Member, hook: s.Hook) -> None:
         """The state of ``member`` changes at this callback, not at the end of the operation."""
@@ -286,12 +287,15 @@ class _TraceReader:
         hook = event.hook
         if thread.hooks:
             thread.hooks.pop()
-        if self.ongoing is not None and hook not in _BUSINESS:
-            self.ongoing.leave(event.body, hook)
-        if hook == "on_startup":
-            self.runtime.starting.add(event.body)
-            self.runtime.starting_up.pop(event.body, None)
-        if hook not in _BUSINESS or not thread.served:
+        if hook not in _BUSINESS:
+            body = event.body
+            if self.ongoing is not None:
+                self.ongoing.leave(body, hook)
+            if hook == "on_startup":
+                self.runtime.starting.add(body)
+                self.runtime.starting_up.pop(body, None)
+            return
+        if not thread.served:
             return
         thread.inside.pop()
         if hook == "method":

@@ -98,11 +98,7 @@ def read_lines(path: Path) -> tuple[object, dict[str, int]]:
     text = read_text(path)
     lines: dict[str, int] = {}
     try:
-        _refuse_anchors_and_depth(path, text)
-        node = yaml.compose(text, Loader=_Loader)
-        if node is None:
-            raise DocumentError(path, 1, "is empty")
-        return _build(path, node, "$", lines), lines
+        return _Building(path, text, lines).document(), lines
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         # newer readers of YAML have a limit of their own, and reach it by reading ahead
@@ -152,54 +148,97 @@ def _toml_lines(text: str) -> dict[str, int]:
     return lines
 
 
-def _line(mark: Any) -> int:
-    return int(mark.line) + 1
+def _line(event: Any) -> int:
+    return int(event.start_mark.line) + 1
 
 
-def _refuse_anchors_and_depth(path: Path, text: str) -> None:
-    """Check the event stream first: composing a deeply nested document would recurse."""
-    depth = 0
-    for event in yaml.parse(text, Loader=_Loader):
-        if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
-            raise DocumentError(path, _line(event.start_mark), "anchors and aliases are not allowed; write it out")
-        if isinstance(event, yaml.CollectionStartEvent):
-            depth += 1
-            if depth > DEEPEST:
-                raise DocumentError(path, _line(event.start_mark), _TOO_DEEP)
-        elif isinstance(event, yaml.CollectionEndEvent):
-            depth -= 1
+class _Building:
+    """Builds plain values from the events of a document. Its text is parsed once, and nothing is made between events and values.
 
+    All events are read first: building recurses, so it must be known before how deep the document nests.
+    """
 
-def _build(path: Path, node: yaml.Node, place: str, lines: dict[str, int]) -> object:
-    line = node.start_mark.line + 1
-    lines[place] = line
-    if isinstance(node, yaml.MappingNode):
+    def __init__(self, path: Path, text: str, lines: dict[str, int]) -> None:
+        self._path = path
+        self._lines = lines
+        self._loader = _Loader(text)
+        try:
+            self._events = iter(self._read())
+        finally:
+            self._loader.dispose()
+
+    def document(self) -> object:
+        """The value of the document."""
+        first = next(self._events, None)
+        if first is None:
+            raise DocumentError(self._path, 1, "is empty")
+        return self._value(first, "$")
+
+    def _read(self) -> list[Any]:
+        """The events of scalars and collections."""
+        events: list[Any] = []
+        documents: list[Any] = []
+        depth = 0
+        while (event := self._loader.get_event()) is not None:
+            kind = type(event)
+            if kind is yaml.AliasEvent or getattr(event, "anchor", None):
+                raise self._error(event, "anchors and aliases are not allowed; write it out")
+            if kind is yaml.ScalarEvent:
+                events.append(event)
+            elif kind is yaml.MappingStartEvent or kind is yaml.SequenceStartEvent:
+                events.append(event)
+                depth += 1
+                if depth > DEEPEST:
+                    raise self._error(event, _TOO_DEEP)
+            elif kind is yaml.MappingEndEvent or kind is yaml.SequenceEndEvent:
+                events.append(event)
+                depth -= 1
+            elif kind is yaml.DocumentStartEvent:
+                documents.append(event)
+        if len(documents) > 1:
+            raise self._error(documents[1], "not YAML: but found another document")
+        return events
+
+    def _error(self, event: Any, problem: str) -> DocumentError:
+        return DocumentError(self._path, _line(event), problem)
+
+    def _value(self, event: Any, place: str) -> object:
+        """The value that begins with ``event``."""
+        kind = type(event)
+        self._lines[place] = line = _line(event)
+        if kind is yaml.ScalarEvent:
+            return self._scalar(event)
+        if kind is yaml.SequenceStartEvent:
+            items: list[object] = []
+            while type(event := next(self._events)) is not yaml.SequenceEndEvent:
+                items.append(self._value(event, f"{place}[{len(items)}]"))
+            return items
         mapping: dict[str, object] = {}
-        for key_node, value_node in node.value:
-            if not isinstance(key_node, yaml.ScalarNode):
-                raise DocumentError(path, key_node.start_mark.line + 1, "a key must be a plain word")
-            key = key_node.value
+        while type(event := next(self._events)) is not yaml.MappingEndEvent:
+            if type(event) is not yaml.ScalarEvent:
+                raise self._error(event, "a key must be a plain word")
+            key = event.value
             if key in mapping:
-                raise DocumentError(path, key_node.start_mark.line + 1, f"'{key}' is given twice; keep one")
-            mapping[key] = _build(path, value_node, f"{place}.{key}", lines)
-            lines[f"{place}.{key}"] = key_node.start_mark.line + 1
-            lines.setdefault(f"{place}[...]", line)
+                raise self._error(event, f"'{key}' is given twice; keep one")
+            mapping[key] = self._value(next(self._events), f"{place}.{key}")
+            self._lines[f"{place}.{key}"] = _line(event)
+            self._lines.setdefault(f"{place}[...]", line)
         return mapping
-    if isinstance(node, yaml.SequenceNode):
-        return [_build(path, item, f"{place}[{index}]", lines) for index, item in enumerate(node.value)]
-    return _scalar(path, node, line)
 
-
-def _scalar(path: Path, node: yaml.Node, line: int) -> object:
-    text = str(node.value)
-    if node.tag == "tag:yaml.org,2002:int" and re.fullmatch(r"[-+]?[0-9]+", text):
-        if len(text) > 20:
-            raise DocumentError(path, line, "a number this long is not allowed")
-        return int(text)
-    if node.tag == "tag:yaml.org,2002:bool" and text in ("true", "false"):
-        return text == "true"
-    if node.tag == "tag:yaml.org,2002:null":
-        return None
-    if node.tag.removeprefix("tag:yaml.org,2002:") in ("str", "int", "float", "bool", "timestamp", "value", "merge"):
-        return text
-    raise DocumentError(path, line, f"tag '{node.tag}' is not allowed; write plain text")
+    def _scalar(self, event: Any) -> object:
+        text, tag = event.value, event.tag
+        if tag is None or tag == "!":
+            tag = self._loader.resolve(yaml.ScalarNode, text, event.implicit)
+        if tag == "tag:yaml.org,2002:str":
+            return text
+        if tag == "tag:yaml.org,2002:int" and re.fullmatch(r"[-+]?[0-9]+", text):
+            if len(text) > 20:
+                raise self._error(event, "a number this long is not allowed")
+            return int(text)
+        if tag == "tag:yaml.org,2002:bool" and text in ("true", "false"):
+            return text == "true"
+        if tag == "tag:yaml.org,2002:null":
+            return None
+        if tag.removeprefix("tag:yaml.org,2002:") in ("int", "float", "bool", "timestamp", "value", "merge"):
+            return text
+        raise self._error(event, f"tag '{tag}' is not allowed; write plain text")

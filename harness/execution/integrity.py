@@ -49,6 +49,7 @@ class _Check(BodyChecks):
     def __init__(self, scenario: Scenario) -> None:
         super().__init__(scenario)
         self.taken = 0
+        self.length = len(scenario.steps)
         self.done: dict[int, bool] = {}
         self.threads: dict[int, Thread] = {}
         self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
@@ -82,7 +83,7 @@ class _Check(BodyChecks):
         if unknown:
             return f"'{min(unknown)}' is stuck, and there is no such worker"
         for number, step in enumerate(self.scenario.steps):
-            if step.thread in stuck:
+            if self.done.get(number) or step.thread in stuck:
                 continue
             ended = isinstance(step, s.Join) or (self.done.get(number) if step.ends_with else not self.why_open(number))
             if not ended:
@@ -133,29 +134,41 @@ class _Check(BodyChecks):
         steps = self.order.steps.get(worker, ())
         return all(self.done.get(n) for n in steps if n < number and not self.is_silent(n))
 
-    def check_begin(self, event: t.Call | t.Skip, thread: Thread) -> str | None:
+    def check_call(self, event: t.Call, thread: Thread) -> str | None:
+        number = event.step
+        if not 0 <= number < self.length:
+            return f"there is no step {number}"
+        step = self.scenario.steps[number]
+        if step.ends_with != "return":
+            return f"step {number} is no operation"
+        if number in self.done:
+            return f"step {number} is carried out twice"
+        missing = self.missing(step)
+        if missing:
+            return f"step {number} is carried out although {missing[0]} is not bound"
+        problem = self.check_order(number, thread)
+        self.done[number] = False
+        thread.frames.append(Frame(event))
+        return problem
+
+    def check_skip(self, event: t.Skip, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if step.ends_with != "return" and (isinstance(event, t.Call) or not used_by(step)):
+        if step.ends_with != "return" and not used_by(step):
             return f"step {event.step} is no operation"
         frames = thread.frames
-        if isinstance(event, t.Skip) and step.optional and event.variable == s.operation(step) and frames:
+        if step.optional and event.variable == s.operation(step) and frames:
             top = frames.pop().event
             self.done[event.step] = True
             is_own = isinstance(top, t.Call) and top.step == event.step
             return None if is_own else f"step {event.step} is skipped and was not begun"
         if event.step in self.done:
             return f"step {event.step} is carried out twice"
-        missing = self.missing(step)
-        if isinstance(event, t.Skip) and event.variable not in missing:
+        if event.variable not in self.missing(step):
             return f"step {event.step} is skipped although {event.variable} is bound"
-        if isinstance(event, t.Call) and missing:
-            return f"step {event.step} is carried out although {missing[0]} is not bound"
         problem = self.check_order(event.step, thread)
-        self.done[event.step] = isinstance(event, t.Skip)
-        if isinstance(event, t.Call):
-            thread.frames.append(Frame(event))
+        self.done[event.step] = True
         return problem
 
     def missing(self, step: s.Step) -> list[str]:
@@ -211,38 +224,42 @@ class _Check(BodyChecks):
         return problem
 
     def check_end(self, event: t.Return | t.Raise, thread: Thread) -> str | None:
-        step = self.step(event)
-        if isinstance(step, str):
-            return step
+        number = event.step
+        if not 0 <= number < self.length:
+            return f"there is no step {number}"
+        step = self.scenario.steps[number]
         if step.ends_with != "return":
-            return f"step {event.step} is no operation"
+            return f"step {number} is no operation"
         frames = thread.frames
         top = frames[-1].event if frames else None
-        if not isinstance(top, t.Call) or top.step != event.step:
-            return f"step {event.step} ends without being open on thread {event.thread}"
+        if type(top) is not t.Call or top.step != number:
+            return f"step {number} ends without being open on thread {event.thread}"
         frames.pop()
-        self.done[event.step] = True
-        if isinstance(event, t.Raise):
+        self.done[number] = True
+        if type(event) is t.Raise:
             return None
+        assert isinstance(event, t.Return)
         too_early = event.t - top.t < self.shortest_wait
-        if isinstance(step, s.ReadLog) and len(event.records or ()) < step.records and too_early:
-            return f"step {event.step} gives up waiting for {step.records} records too early"
+        if type(step) is s.ReadLog and len(event.records or ()) < step.records and too_early:
+            return f"step {number} gives up waiting for {step.records} records too early"
         if type(step) is s.Invoke:
             right = type(event.value) is int or (event.wrong and event.value is None)
             return None if right and event.records is None else self.check_value(step, event)
         self.bound.update(bound_by(step))
-        if isinstance(step, s.GetPortElement):
+        if type(step) is s.GetPortElement:
             (self.null.add if event.value is None else self.null.discard)(step.bind)
         return self.check_value(step, event)
 
     def step(self, event: t.StepEvent) -> s.Step | str:
         """The step of the event, or why there is none."""
-        if not 0 <= event.step < len(self.scenario.steps):
+        if not 0 <= event.step < self.length:
             return f"there is no step {event.step}"
         return self.scenario.steps[event.step]
 
     def check_value(self, step: s.Step, event: t.Return) -> str | None:
         value = event.value
+        if event.records is None and _IS_OF[step.returns] is type(value):
+            return None  # most are integers, or nothing
         if (step.returns == "records") != (event.records is not None):
             return f"{s.operation(step)} returned {'no ' if event.records is None else ''}records"
         if max(len(value) if isinstance(value, tuple) else 0, len(event.records or ())) > t.MOST:
@@ -272,9 +289,19 @@ def _fits(value: object, returns: s.Returns | None) -> bool:
             return value is None
 
 
+_IS_OF: dict[s.Returns | None, type | None] = {
+    "id": int,
+    "value": int,
+    "ids": None,
+    "reference": None,
+    "records": None,
+    None: type(None),
+}
+"""The type that what a call returns has, for those kinds of which nothing else is to be checked."""
+
 _CHECKS: dict[type, Callable[[_Check, Any, Thread], str | None]] = {
-    t.Call: _Check.check_begin,
-    t.Skip: _Check.check_begin,
+    t.Call: _Check.check_call,
+    t.Skip: _Check.check_skip,
     t.Return: _Check.check_end,
     t.Raise: _Check.check_end,
     t.Timeout: _Check.check_timeout,

@@ -186,7 +186,7 @@ class Record(Value, frozen=True):
         events, replace = self.events, msgspec.structs.replace
         times = itertools.islice(itertools.accumulate(entry.times, initial=last), 1, None)
         return tuple(
-            replace(events[index], n=n, t=t) for n, (index, t) in enumerate(zip(entry.events, times, strict=True), 1)
+            [replace(events[index], n=n, t=t) for n, (index, t) in enumerate(zip(entry.events, times, strict=True), 1)]
         )
 
     def scenario(self, entry: Performed) -> bytes:

@@ -38,7 +38,7 @@ class IncidentTime:
     def note_skips(self, scenario: Scenario, trace: Trace) -> None:
         """Note the connectors that ``trace`` shows the adapter not to offer."""
         for event in trace:
-            if isinstance(event, Skip):
+            if type(event) is Skip:
                 step = scenario.steps[event.step]
                 if isinstance(step, s.Link) and event.variable == s.operation(step):
                     self._unoffered.add(step.connector)

@@ -55,7 +55,8 @@ class Tally:
         self.scenarios += 1
         self.events += len(execution.trace)
         self.exercised.update(verdicts.exercises)
-        self.measures.update(verdicts.measures)
+        if verdicts.measures:
+            self.measures.update(verdicts.measures)
         self._observe(verdicts.readings)
         for row, tally in verdicts.rows.items():
             total = self.rows.setdefault(row, RowTally())

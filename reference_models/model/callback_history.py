@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.scenario import Hook
 from ucm_cts.adapters.contract.trace import Enter
+from ucm_cts.reference_models.model.changing import Changing
 from ucm_cts.reference_models.model.operation import Ongoing
 from ucm_cts.reference_models.model.runtime import Member
 
@@ -14,8 +14,7 @@ _REMEMBERED = 50
 """The number of phases that findings list."""
 
 
-@dataclass(slots=True, eq=False)
-class CallbackHistory:
+class CallbackHistory(Changing):
     """The callbacks that one body has received so far, however many they are.
 
     ``first``, ``first_at``: the first callback of all and its ``n``.
@@ -32,7 +31,7 @@ class CallbackHistory:
     begun: bool = False
     regular: bool = True
     interfaces: int = 0
-    phases: list[str] = field(default_factory=list)
+    phases: list[str] = []
 
     def add(self, hook: Hook, n: int) -> None:
         """One more callback has come, with the event ``n``."""

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request, Settled
+from ucm_cts.reference_models.model.changing import Changing
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.runtime import Behind, Connection, Container, Member, Runtime
 
@@ -48,8 +48,7 @@ Caller = Literal["test", "body", "framework"]
 """Who made the call that led to an entry; ``framework`` if there was no call."""
 
 
-@dataclass(slots=True, eq=False)
-class BusinessCall:
+class BusinessCall(Changing):
     """One call of the probes' business method.
 
     ``value``, ``n``: the value sent, and the event that begins the call.
@@ -74,7 +73,7 @@ class BusinessCall:
     behind_since: int = 0
     caller: Execution | None = None
     waited: bool = False
-    entries: list[tuple[Enter, Exit | None]] = field(default_factory=list)
+    entries: list[tuple[Enter, Exit | None]] = []
 
     @property
     def by(self) -> Caller:
@@ -126,8 +125,7 @@ class BusinessCall:
                 return
 
 
-@dataclass(slots=True, eq=False)
-class Execution:
+class Execution(Changing):
     """A body inside ``exchange`` or ``run``.
 
     ``enter``, ``call``: how it was entered, and by which call.
@@ -141,12 +139,12 @@ class Execution:
     enter: Enter
     call: BusinessCall | None
     gate: str | None = None
-    waited: list[BusinessCall] = field(default_factory=list)
+    waited: list[BusinessCall] = []
     over: bool = False
     left: int = 0
     end: int = 0
-    earlier: list[Execution] = field(default_factory=list)
-    met: list[Execution] = field(default_factory=list)
+    earlier: list[Execution] = []
+    met: list[Execution] = []
 
     @property
     def way(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,6 +28,10 @@ class Listener(NamedTuple):
     undone: int
 
 
+listener = functools.lru_cache(1024)(Listener)
+"""The one listener with these properties: each role of each operation asks for one."""
+
+
 @dataclass(frozen=True, eq=False)
 class Fit:
     """A way for an operation to go that ``row`` permits: the requirements it exercises, and the readings that permit it, one
@@ -36,6 +41,9 @@ class Fit:
     row: Row
     readings: tuple[str, ...]
     exercised: tuple[str, ...]
+
+
+_NOT_KNOWN = Fit(Row("", "absent", "", "", ()), (), ())
 
 
 @dataclass(frozen=True)
@@ -49,12 +57,16 @@ class Deviation:
 
 
 class ExpectedCallbacks:
-    """The life-cycle table as far as callbacks go. What it has worked out once it remembers."""
+    """The life-cycle table as far as callbacks go. What it has worked out once it remembers.
+
+    ``answers``: those that each row permits, by the row's ``id()``.
+    """
 
     def __init__(self, table: LifeCycleTable) -> None:
         self._table = table
         self._duties: dict[tuple[str, str], CallbackDuty] = {}
-        self._answers = {id(row): frozenset(a for o in row.outcomes for a in o.answer) for row in table.rows}
+        self.answers = {id(row): frozenset(a for o in row.outcomes for a in o.answer) for row in table.rows}
+        self._always: dict[tuple[int, str], bool] = {}
         self._fits: dict[tuple[int, str, Listener, tuple[str, ...]], Fit | None] = {}
 
     def of(self, callback: str, operation: str) -> CallbackDuty:
@@ -66,19 +78,20 @@ class ExpectedCallbacks:
             self._duties[callback, operation] = duty
         return duty
 
-    def answers_to(self, row: Row) -> frozenset[str]:
-        """The answers that ``row`` permits."""
-        return self._answers[id(row)]
-
     def always_calls(self, row: Row, hook: str) -> bool:
         """Does the instance receive ``hook`` in whichever way ``row`` lets the operation return?"""
-        return all(hook in outcome.callbacks for outcome in row.outcomes if "return" in outcome.answer)
+        known = self._always.get((id(row), hook))
+        if known is None:
+            known = all(hook in outcome.callbacks for outcome in row.outcomes if "return" in outcome.answer)
+            self._always[id(row), hook] = known
+        return known
 
     def fit(self, row: Row, answer: str, listener: Listener, hooks: tuple[str, ...]) -> Fit | None:
         """How ``hooks`` fits an outcome of ``row`` with this ``answer``; None if it does not."""
         key = (id(row), answer, listener, hooks)
-        if key in self._fits:
-            return self._fits[key]
+        known = self._fits.get(key, _NOT_KNOWN)
+        if known is not _NOT_KNOWN:
+            return known
         fit = self._fit(row, answer, listener, hooks)
         if len(self._fits) < _MOST_REMEMBERED:
             self._fits[key] = fit

@@ -149,6 +149,7 @@ class Interactions:
             if requires:
                 end.connection = Connection(link.name, NO_ID, member, port, "opaque", None)
                 member.connections.append(end.connection)
+                self._runtime.remembered.attach(end.connection)
             link.ends.append(end)
         self._connect_ends(link)
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.scenario import Hook, Step
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return
+from ucm_cts.reference_models.model.changing import Changing
 from ucm_cts.reference_models.model.designation import designation
 from ucm_cts.reference_models.model.expected_callbacks import Deviation, Fit
 from ucm_cts.reference_models.model.life_cycle import Row
@@ -59,7 +59,7 @@ class Intrusion(NamedTuple):
     elsewhere: bool
 
 
-class OperationEnd:
+class OperationEnd(Changing):
     """How the end of an operation and its callbacks fit the life-cycle table.
 
     ``answer``: ``return`` or the error.
@@ -76,6 +76,7 @@ class OperationEnd:
     ``has_choices``: whether one of ``fitted`` is permitted under some readings only.
     """
 
+    answer: str
     permitting: Sequence[Row] = ()
     forbidding: tuple[Member | None, Row, frozenset[str]] | None = None
     permitted: bool = False
@@ -87,11 +88,8 @@ class OperationEnd:
     not_reached: Sequence[Member] = ()
     fitted: Sequence[Fitted] = ()
     deviating: Sequence[Deviating] = ()
-    is_plain = True
-    has_choices = False
-
-    def __init__(self, answer: str) -> None:
-        self.answer = answer
+    is_plain: bool = True
+    has_choices: bool = False
 
     def is_unknown(self, member: Member) -> bool:
         """Is the state of ``member`` not known, or not any more because of what it received?"""
@@ -103,11 +101,7 @@ class OperationEnd:
         )
 
 
-_NOT_ENDED = OperationEnd("")
-
-
-@dataclass(slots=True, eq=False)
-class OperationInProgress:
+class OperationInProgress(Changing):
     """One operation of Container or ContainerManager, from call to return.
 
     ``step_number``, ``step``: of the scenario.
@@ -122,8 +116,7 @@ class OperationInProgress:
     ``inside``: those of ``callbacks`` that have not been left.
     ``created``: the bodies made meanwhile.
     ``subject``, ``connection``: the instance or connection that the step designates.
-    ``end``: the event that ended it. Not there before.
-    ``outcome``: how it ended, as soon as it has.
+    ``end``: the event that ended it; ``outcome``: how it ended. Neither is there before.
     """
 
     step_number: int
@@ -131,20 +124,20 @@ class OperationInProgress:
     operation: str
     container: Container
     call: int = 0
-    roles: list[tuple[Member | None, Row]] = field(default_factory=list)
+    roles: list[tuple[Member | None, Row]] = []
     judged: bool = True
     is_after_removal: bool = False
     forgiving: bool = False
     lost: bool = False
-    callbacks: list[Enter] = field(default_factory=list)
-    hooks: set[Hook] = field(default_factory=set)
-    by_body: dict[tuple[str, int | None], list[Enter]] = field(default_factory=dict)
-    inside: list[Enter] = field(default_factory=list)
-    created: list[tuple[str, int]] = field(default_factory=list)
+    callbacks: list[Enter] = []
+    hooks: set[Hook] = set()
+    by_body: dict[tuple[str, int], list[Enter]] = {}
+    inside: list[Enter] = []
+    created: list[tuple[str, int]] = []
     subject: Member | None = None
     connection: Connection | None = None
-    end: Result = field(init=False)
-    outcome: OperationEnd = _NOT_ENDED
+    end: Result = None  # type: ignore[assignment]
+    outcome: OperationEnd = None  # type: ignore[assignment]
 
     @property
     def what(self) -> str:
@@ -153,25 +146,34 @@ class OperationInProgress:
 
     def unclear_if(self, condition: bool) -> None:
         """The model cannot predict it if ``condition`` holds."""
-        self.judged = self.judged and not condition
+        if condition:
+            self.judged = False
 
     def leave(self, body: tuple[str, int], hook: Hook) -> None:
         """A body was left that had been entered while the operation was in progress."""
-        self.inside = [callback for callback in self.inside if callback.body != body or callback.hook != hook]
+        inside = self.inside
+        if len(inside) == 1:  # the common case
+            if inside[0].hook == hook and inside[0].body == body:
+                inside.clear()
+        elif inside:
+            self.inside = [callback for callback in inside if callback.hook != hook or callback.body != body]
 
-    def add(self, callback: Enter) -> None:
-        """A body was entered while the operation was in progress."""
+    def add(self, callback: Enter, body: tuple[str, int]) -> None:
+        """A ``body`` was entered while the operation was in progress."""
         self.callbacks.append(callback)
         self.inside.append(callback)
         self.hooks.add(callback.hook)
-        body = callback.body
-        self.by_body.setdefault(body, []).append(callback)
+        known = self.by_body.get(body)
+        if known is None:
+            self.by_body[body] = [callback]
+        else:
+            known.append(callback)
 
     def received(self, member: Member, hook: Hook) -> list[Enter]:
         """The ``hook`` callbacks that the body of ``member`` received meanwhile."""
-        if hook not in self.hooks:
+        if hook not in self.hooks or member.body not in self.by_body:
             return []
-        return [c for c in self.by_body.get(member.body, ()) if c.hook == hook]
+        return [c for c in self.by_body[member.body] if c.hook == hook]
 
     def not_undone(self, member: Member) -> tuple[str, ...]:
         """The ports of ``member`` whose connections stood, and whose end on_disconnect has not reported so far."""

@@ -11,20 +11,23 @@ from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime, raises
 from ucm_cts.reference_models.model.start_effects import forget_start, take_over_start, take_over_stop
 
+_PHASES = frozenset(("on_startup", "on_shutdown"))
+
 
 def apply(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
     """Bring ``runtime`` up to date with the operation that just ended."""
-    if ongoing.callbacks:
+    if not ongoing.hooks.isdisjoint(_PHASES):
         _linger(runtime, ongoing, end)
     _TAKEN_OVER[ongoing.operation](runtime, ongoing, ongoing.step, end)
     if ongoing.lost:
         _lose_track(ongoing)
     if ongoing.callbacks:
-        for component, instance in ongoing.by_body:
-            member = runtime.bodies.get((component, instance or 0))
+        removes = ongoing.operation in ("remove_component", "remove_container")
+        for body in ongoing.by_body:
+            member = runtime.bodies.get(body)
             if member is None:
                 continue
-            if ongoing.operation in ("remove_component", "remove_container") and _has_uncertain_connection(member):
+            if removes and _has_uncertain_connection(member):
                 member.suspended = True
             if member.suspended:
                 _follow(ongoing, member)
@@ -32,9 +35,9 @@ def apply(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
 
 def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
     """An instance whose on_shutdown made the operation raise may be operational, until on_startup comes again or a stop returns."""
-    for (component, instance), callbacks in ongoing.by_body.items():
-        member = runtime.bodies.get((component, instance or 0))
-        phases = [c.hook for c in callbacks if c.hook in ("on_startup", "on_shutdown")]
+    for body, callbacks in ongoing.by_body.items():
+        member = runtime.bodies.get(body)
+        phases = [c.hook for c in callbacks if c.hook in _PHASES]
         if member is None or not phases:
             continue
         member.lingering = phases[-1] == "on_shutdown" and isinstance(end, Raise) and member.raises("on_shutdown")
@@ -47,8 +50,7 @@ def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None
 def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent, end: Result) -> None:
     value = end.value if isinstance(end, Return) else None
     declaration = runtime.scenario.components.get(step.component)
-    seen = [*(c.body for c in ongoing.callbacks), *ongoing.created]
-    bodies = [body for body in seen if body not in runtime.bodies]
+    bodies = [body for body in (*ongoing.by_body, *ongoing.created) if body not in runtime.bodies]
     own = [b for b in bodies if b[0] == step.component]
     if not isinstance(value, int) or isinstance(value, bool):
         if declaration is not None and raises(declaration, "on_init", "set_container_interface"):
@@ -70,7 +72,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
         or not ongoing.judged
         or raises(declaration, "on_init", "set_container_interface")
     )
-    twins = [m for m in ongoing.container.live_members() if m.id == value]
+    twins = list(ongoing.container.present.with_id(value))
     for twin in twins:
         if twin.leaving:  # its id is free, so the removal that failed did remove it
             twin.leave()
@@ -85,7 +87,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
         member.operational = True
         member.startups = 1
         if ongoing.container.started:
-            ongoing.container.startup_order.append(member)
+            ongoing.container.startup_order[member] = None
         else:
             member.suspended = True
     ongoing.subject = member
@@ -111,9 +113,7 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
             for earlier in member.live_connections(step.port):
                 earlier.live = None
             port = runtime.ports.get(step.to, "")
-            member.connections.append(
-                Connection(step.bind, NO_ID, member, step.port, reference, provider, port, live=None)
-            )
+            runtime.connect(Connection(step.bind, NO_ID, member, step.port, reference, provider, port, live=None))
         return
     value = end.value
     if not isinstance(value, int) or step.port not in member.declaration.requires or step.to == s.NIL:
@@ -123,8 +123,9 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
     replaced = bool(ongoing.received(member, "on_disconnect"))
     for earlier in member.live_connections(step.port):
         earlier.live = False if replaced or earlier.id == value else None
-    of_that_id = [c for c in runtime.all_connections() if c.id == value and c.client.container is member.container]
-    for twin in of_that_id:
+    for twin in runtime.remembered.with_id(value):
+        if twin.client.container is not member.container:
+            continue
         if twin.live:
             twin.ambiguous = connection.ambiguous = True
             twin.client.suspended = member.suspended = True
@@ -133,8 +134,8 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
     if connection.stale:
         connection.live = None
         member.suspended = True
-    member.connections.append(connection)
-    member.forget_repetitions()
+    runtime.connect(connection)
+    runtime.forget_repetitions(member)
     member.once_connected.add(step.port)
     runtime.connections[step.bind] = connection
     if ongoing.received(member, "on_startup"):
@@ -143,7 +144,7 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
             member.operational = True
             member.startups += 1
             forget_start(member)
-            ongoing.container.startup_order.append(member)
+            ongoing.container.startup_order[member] = None
         else:
             member.suspended = True
 

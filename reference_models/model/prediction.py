@@ -83,7 +83,7 @@ class Prediction:
         for (member, _), hooks in zip(ongoing.roles, way.callbacks, strict=True):
             component, instance = self._body(step, member)
             for hook in hooks if component else ():
-                ongoing.add(Enter(0, 0, 0, component, instance, hook))  # type: ignore[arg-type]
+                ongoing.add(Enter(0, 0, 0, component, instance, hook), (component, instance))  # type: ignore[arg-type]
         apply(self.runtime, ongoing, self._end(step, ongoing, way.answer))
         return ongoing
 
@@ -119,9 +119,8 @@ def _copied(runtime: ObservedRuntime) -> ObservedRuntime:
     remembered = [c for m in everyone for c in (*m.connections, *(m.handed_over or ()))]
     connections: dict[int, Connection] = {id(c): copy(c) for c in (*remembered, *runtime.connections.values())}
     for container in containers.values():
-        container.members = [members[id(m)] for m in container.members]
-        container.changed()
-        container.startup_order = [members[id(m)] for m in container.startup_order]
+        container.replace([members[id(m)] for m in container.members])
+        container.startup_order = {members[id(m)]: None for m in container.startup_order}
     for member in members.values():
         member.container = containers[id(member.container)]
         member.connections = [connections[id(c)] for c in member.connections]
@@ -134,10 +133,11 @@ def _copied(runtime: ObservedRuntime) -> ObservedRuntime:
     other = copy(runtime)
     other.containers = {name: containers[id(c)] for name, c in runtime.containers.items()}
     other.members = {name: members[id(m)] for name, m in runtime.members.items()}
-    other.present, other.behind = [members[id(m)] for m in runtime.present], {}
+    other.present, other.behind = {members[id(m)]: None for m in runtime.present}, {}
     other.bodies = {body: members[id(m)] for body, m in runtime.bodies.items()}
     other.connections = {name: connections[id(c)] for name, c in runtime.connections.items()}
     other.references = {name: (r, m and members[id(m)]) for name, (r, m) in runtime.references.items()}
+    other.remembered = runtime.remembered.copied(members, connections)
     other.discarded, other.ports = set(runtime.discarded), dict(runtime.ports)
     other.startups, other.starting = dict(runtime.startups), set(runtime.starting)
     return other

@@ -7,7 +7,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.executions import has_unknown_policy, is_contradictory, is_plainest, without_policy
-from ucm_cts.reference_models.model.expected_callbacks import Listener
+from ucm_cts.reference_models.model.expected_callbacks import Listener, listener
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 from ucm_cts.reference_models.model.links import differ, is_misfit
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -55,21 +55,29 @@ class RowSelection:
             ongoing.judged = False
             return ongoing
         self._select[operation](runtime, ongoing, step)
-        ongoing.unclear_if(ongoing.subject is not None and ongoing.subject.container is not container)
-        if len(runtime.containers) > 1:
-            self._other_phases(runtime, ongoing)
+        if ongoing.subject is not None and ongoing.subject.container is not container:
+            ongoing.judged = False
+        if len(runtime.containers) > 1 and not ongoing.forgiving:
+            ongoing.forgiving = self._is_hindered_elsewhere(runtime, ongoing)
         for member, _ in ongoing.roles:
-            ongoing.unclear_if(member is not None and member.suspended)
+            if member is not None and member.suspended:
+                ongoing.judged = False
+                break
         return ongoing
 
-    def _other_phases(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> None:
-        """If phases belong to the whole application, the phase of another container may be a reason to refuse."""
-        others = [c for c in runtime.containers.values() if c is not ongoing.container and not c.removed]
+    def _is_hindered_elsewhere(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> bool:
+        """If phases belong to the whole application: may the phase of another container be a reason to refuse?"""
         if ongoing.operation in _CONFIGURING:
-            ongoing.forgiving = ongoing.forgiving or any(c.started is not False for c in others)
+            for other in runtime.containers.values():
+                if other.started is not False and other is not ongoing.container and not other.removed:
+                    return True
         elif ongoing.operation == "start":
-            unready = any(not m.connected or m.suspended for c in others for m in c.live_members())
-            ongoing.forgiving = ongoing.forgiving or unready
+            for other in runtime.containers.values():
+                if other is not ongoing.container and not other.removed:
+                    for member in other.live_members():
+                        if member.suspended or not member.connected:
+                            return True
+        return False
 
     def _role(
         self, ongoing: OperationInProgress, member: Member | None, state: State, condition: str, operation: str = ""
@@ -94,17 +102,16 @@ class RowSelection:
             condition = "on_init fails, container started" if late else "on_init fails"
         else:
             needs = "ports" if declaration.requires else "nothing"
-            other_kind = any(m.declaration.fragment != declaration.fragment for m in container.live_members())
-            beside = ", beside the other kind" if other_kind else ""
+            beside = ", beside the other kind" if container.present.has_other_kind(declaration.fragment) else ""
             condition = f"container started, requires {needs}" if late else f"requires {needs}{beside}"
         unforeseen: tuple[s.Hook, ...] = (
             ("set_container_interface", "on_startup") if late else ("set_container_interface",)
         )
         ongoing.unclear_if(container.started is None or (declaration is not None and raises(declaration, *unforeseen)))
-        ongoing.unclear_if(
-            declaration is not None
-            and (is_contradictory(declaration) or has_several_clocks(declaration) or has_unknown_policy(declaration))
-        )
+        if declaration is not None and declaration.policies:
+            ongoing.unclear_if(
+                is_contradictory(declaration) or has_several_clocks(declaration) or has_unknown_policy(declaration)
+            )
         if declaration is not None and not is_plainest(declaration, runtime.knows_policies, runtime.ics):
             ongoing.forgiving = (
                 True  # whether it may be refused is the matter of policy_supported and execution_policy_given
@@ -119,7 +126,7 @@ class RowSelection:
         if member is None:
             self._role(ongoing, None, "absent", why + _late(ongoing))
             return
-        clients = list(runtime.clients_of([member]))
+        clients = runtime.clients_of([member])
         failing = member.raises(*_FAILING_END)
         attached = bool(runtime.interactions.links_of(member))
         if member.state == "ready":
@@ -136,8 +143,8 @@ class RowSelection:
             self._member_role(ongoing, member, "provider in use")
         else:
             self._member_role(ongoing, member, "connected" if member.live_connections() else "not connected")
-        doubtful = [c for c in runtime.all_connections() if c.live is None or c.ambiguous]
-        ongoing.unclear_if(any(member is c.client or c.leads_to({id(member)}) for c in doubtful))
+        concerned = (*member.connections, *runtime.remembered.leading_to([member]))
+        ongoing.unclear_if(any(c.live is None or c.ambiguous for c in concerned))
         for client, _ in clients:
             self._member_role(ongoing, client, "attached" if attached else "", "remove_provider")
             ongoing.unclear_if(_raises_when_disconnected(client))
@@ -244,8 +251,8 @@ class RowSelection:
         ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")
-        unready = [m for m in members if m.state == "initialized"]
-        failing = [m for m in members if m.raises("on_startup")]
+        unready = {m for m in members if m.state == "initialized"}
+        failing = {m for m in members if m.raises("on_startup")}
         ongoing.unclear_if(any(not m.operational for m in failing) if started else bool(unready and failing))
         for member in members:
             if started is not False:
@@ -329,8 +336,7 @@ class RowSelection:
         clients = [client for client, _ in runtime.clients_of(members) if client.container is not container]
         in_use = bool(clients) or any(map(runtime.interactions.is_used_elsewhere, members))
         self._removal_of_all(ongoing, members, "in use elsewhere" if in_use else "")
-        gone = {id(member) for member in members}
-        ongoing.unclear_if(any(c.live is None and c.leads_to(gone) for c in runtime.all_connections()))
+        ongoing.unclear_if(any(c.live is None for c in runtime.remembered.leading_to(members)))
         for client in clients:
             self._member_role(ongoing, client, "with its container", "remove_provider")
             ongoing.unclear_if(_raises_when_disconnected(client))
@@ -367,6 +373,6 @@ def undone_by(ongoing: OperationInProgress, member: Member) -> list[Connection]:
 def listener_of(ongoing: OperationInProgress, member: Member | None) -> Listener:
     """The listener that stands for ``member`` in the operation; without interfaces if it is None."""
     if member is None:
-        return Listener(False, False, 0)
+        return listener(False, False, 0)
     undone = len(undone_by(ongoing, member)) if member.connections else 0
-    return Listener(member.declaration.connectable, member.declaration.fragment, undone)
+    return listener(member.declaration.connectable, member.declaration.fragment, undone)

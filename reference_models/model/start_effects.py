@@ -12,16 +12,14 @@ from ucm_cts.reference_models.model.runtime import Container, Member, Runtime
 
 def forget_start(member: Member) -> None:
     """A stop does not shut it down any more."""
-    if member in member.container.startup_order:
-        member.container.startup_order.remove(member)
+    member.container.startup_order.pop(member, None)
 
 
 def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end: Result) -> None:
     """A start ended."""
     returned = isinstance(end, Return)
     container = ongoing.container
-    everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if ongoing.callbacks else []
-    reached = [m for m in everywhere if ongoing.received(m, "on_startup")]
+    reached = _called(runtime, ongoing, "on_startup")
     own = [m for m in reached if m.container is container]
     _reached_unseen(runtime, container)
     if not runtime.shows_missing and not runtime.with_policies:
@@ -30,7 +28,7 @@ def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Star
         failing = any(m.raises("on_startup") for m in container.live_members())
         half_way = any(not ongoing.received(m, "on_shutdown") for m in own)
         unseen = ongoing.forgiving and all(m.doubtful for m in container.live_members())
-        taken_back = {m.container.name: m.container for m in everywhere if ongoing.received(m, "on_shutdown")}
+        taken_back = {m.container.name: m.container for m in _called(runtime, ongoing, "on_shutdown")}
         unclear = container.started is not False or failing or half_way or unseen
         if unclear and (container.started is not True or own or container.name in taken_back):
             container.suspend()
@@ -40,7 +38,7 @@ def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Star
                 other.suspend()
         return
     if container.started is not True:
-        container.startup_order = []
+        container.startup_order = {}
     for member in container.live_members():
         for callback in ongoing.received(member, "on_startup"):
             _resolve(member, callback, runtime.shows_missing)
@@ -50,11 +48,21 @@ def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Star
     for member in sorted(reached, key=lambda m: order[m.body]):
         member.operational = True
         member.startups += 1
-        if member not in member.container.startup_order:
-            member.container.startup_order.append(member)
+        member.container.startup_order.setdefault(member)
         if member.container is not container:
             member.container.started = True
     container.started = True
+
+
+def _called(runtime: Runtime, ongoing: OperationInProgress, hook: s.Hook) -> list[Member]:
+    """The instances, in whichever container, that received ``hook`` meanwhile."""
+    if hook not in ongoing.hooks:
+        return []
+    if runtime.shares_bodies:  # then a body does not say which instance it is
+        everywhere = (m for c in runtime.containers.values() for m in c.live_members())
+        return [m for m in everywhere if ongoing.received(m, hook)]
+    members = [runtime.bodies.get(body) for body, own in ongoing.by_body.items() if any(c.hook == hook for c in own)]
+    return [m for m in members if m is not None and not m.gone]
 
 
 def _shows_missing(ongoing: OperationInProgress, reached: list[Member], returned: bool) -> bool:
@@ -80,21 +88,19 @@ def take_over_stop(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop,
     returned = isinstance(end, Return)
     container = ongoing.container
     _reached_unseen(runtime, container)
-    for other in runtime.containers.values() if ongoing.callbacks else ():
-        for member in other.live_members():
-            if ongoing.received(member, "on_shutdown"):
-                member.operational = False
-                if not returned:
-                    other.suspend()
-                elif other is not container:
-                    other.started = False
+    for member in _called(runtime, ongoing, "on_shutdown"):
+        member.operational = False
+        if not returned:
+            member.container.suspend()
+        elif member.container is not container:
+            member.container.started = False
     if not returned:
         if container.started is not False:
             container.suspend()
             container.failed = ongoing.step_number, ongoing.call, end.n
         return
     container.started = False
-    container.startup_order = []
+    container.startup_order = {}
     for member in container.live_members():
         member.operational = member.lingering = False
         member.suspended = member.doubtful or _unsure(member)

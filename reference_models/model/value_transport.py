@@ -35,10 +35,10 @@ REQUIREMENTS = (*_REQUIREMENTS.values(), AT_ANY_DEPTH)
 """The requirements on types, each that a type is carried."""
 
 _COMPOSITE = (d.Structure, d.Union, d.Array, d.Sequence)
+_WITH_PARTS = (*_COMPOSITE, d.Alias)
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(msgspec.Struct, frozen=True):
     """A value inside another one: its type, and what of other types it is in."""
 
     of: d.AnyType
@@ -52,8 +52,7 @@ class Part:
         return msgspec.json.encode((self.of, self.value))
 
 
-@dataclass(frozen=True)
-class Difference:
+class Difference(msgspec.Struct, frozen=True):
     """``part`` was sent, and ``got`` arrived in its place."""
 
     part: Part
@@ -97,6 +96,8 @@ def requirement_of(of: d.AnyType, is_innermost: bool = False) -> str:
 
 def requirements_of(of: d.AnyType, value: d.Datum) -> set[str]:
     """All requirements that a value exercises when it is carried well."""
+    if not isinstance(of, _WITH_PARTS):
+        return {_REQUIREMENTS[type(of)]}
     return set(_exercised(of, value, False))
 
 

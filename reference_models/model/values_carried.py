@@ -7,7 +7,8 @@ belong to the connectors' own clauses, and are separated here.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from ucm_cts.adapters.contract.data_types import AnyType, Datum, Method, Parameter
 from ucm_cts.adapters.contract.data_values import misfit
@@ -22,8 +23,7 @@ _OVERWRITTEN_BY = 3
 """So many owners of one buffer may have overwritten it."""
 
 
-@dataclass(frozen=True)
-class Carried:
+class Carried(msgspec.Struct, frozen=True):
     """A value of a call that arrived.
 
     ``got``: the value that arrived, of any type.
@@ -143,7 +143,8 @@ def _paired(
     doubtful = list(sent) != list(got) and (_are_displaced(call, sent, got) or _meets_others(interactions, call))
     for parameter, way, value, arrived in zip(parameters, ways, sent, got, strict=True):
         if not misfit(parameter.of, value):
-            different = tuple(differences(Part(parameter.of, value), arrived))
+            is_same = type(arrived) is type(value) is not list and arrived == value  # most are
+            different = () if is_same else tuple(differences(Part(parameter.of, value), arrived))
             yield Carried(call, parameter.of, value, arrived, way, events, different, doubtful)
 
 

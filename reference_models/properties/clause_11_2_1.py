@@ -18,6 +18,7 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 _BEFORE_INIT, _ATTRIBUTES, _DEFAULTS = "R-11.2.1.2-05", "R-10.1.1-06", "R-9.2.7.4-04"
 
 _UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
+_STARTING = {"on_startup"}
 _LONGEST = 60
 """Characters of a value that a finding shows."""
 
@@ -26,14 +27,17 @@ _SHOWN = 3
 
 
 @property_at("entered", _BEFORE_INIT, _ATTRIBUTES, at=("on_init",), feature="attributes")
-def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
+def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """On entry to on_init the body holds the configured attribute values."""
-    event = callback.event
-    declaration = runtime.scenario.components.get(event.component)
-    configured = _values(declaration, callback) if declaration is not None else {}
-    if callback.history.initialised or not configured:
-        return
-    held = event.attributes or {}
+    declaration = runtime.scenario.components.get(callback.event.component)
+    if callback.history.initialised or declaration is None:
+        return ()
+    configured = _values(declaration, callback)
+    return _held_as_configured(check, configured, callback) if configured else ()
+
+
+def _held_as_configured(check: Property, configured: dict[str, str], callback: Callback) -> Conclusions:
+    held = callback.event.attributes or {}
     wrong = [a for a, value in configured.items() if not _is_configured(held.get(a), value)]
     if not wrong:
         yield check.kept()
@@ -50,7 +54,9 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
 def default_values(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """On entry to on_init attributes that were not configured have their default values (attribute-defaults)."""
     declaration = runtime.scenario.components.get(callback.event.component)
-    if callback.history.initialised or declaration is None or runtime.ics.reading("attribute-defaults") != "set":
+    if callback.history.initialised or declaration is None or not declaration.defaults:
+        return ()
+    if runtime.ics.reading("attribute-defaults") != "set":
         return ()
     configured, held = _values(declaration, callback), callback.event.attributes or {}
     due = {name: value for name, value in declaration.defaults.items() if name not in configured}
@@ -70,8 +76,11 @@ def _given(callback: Callback) -> dict[str, str]:
 
 def _values(declaration: s.Declaration, callback: Callback) -> dict[str, str]:
     """The values that configure the attributes of the instance that ``callback`` enters, whose type is ``declaration``."""
+    given = _given(callback)
+    if not given:
+        return declaration.attributes
     known = {*declaration.attributes, *declaration.defaults}
-    return {**declaration.attributes, **{name: value for name, value in _given(callback).items() if name in known}}
+    return {**declaration.attributes, **{name: value for name, value in given.items() if name in known}}
 
 
 @property_at("entered", "R-11.2.3-19", at=("on_init",))
@@ -81,7 +90,9 @@ def own_attributes_only(check: Property, runtime: ObservedRuntime, callback: Cal
     declaration = runtime.scenario.components.get(event.component)
     if callback.history.initialised or declaration is None:
         return ()
-    held = event.attributes or {}
+    held = event.attributes
+    if not held:
+        return check.kept()
     asked = {*declaration.attributes, *declaration.defaults, *_given(callback)}
     extra = [name for name, value in held.items() if name not in asked and not _is_default(value)]
     if not extra:
@@ -102,8 +113,10 @@ def _is_default(value: str) -> bool:
 
 def _is_configured(held: str | None, configured: str) -> bool:
     """Is it what was configured? A value of a type may have been read, and spelled anew."""
+    if held == configured:
+        return True
     value, own = read_spelled(configured), read_spelled(held)
-    return held == configured or (value is not None and own is not None and spell(value) == spell(own))
+    return value is not None and own is not None and spell(value) == spell(own)
 
 
 def _brief(value: str) -> str:
@@ -127,9 +140,11 @@ def _holds_others(
 @property_at("ended", "R-11.2.1.2-08", at=("start",))
 def configuration_first(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Once start has started a member, nothing of the container is initialised or connected any more."""
-    if not isinstance(ongoing.end, Return):
+    if not isinstance(ongoing.end, Return) or not ongoing.callbacks:
         return ()
-    own = [m for m in ongoing.container.live_members() if m.instance is not None] if ongoing.callbacks else []
+    if ongoing.hooks == _STARTING and len(ongoing.by_body) < 2 and not runtime.shares_bodies:
+        return ()  # the common case
+    own = [m for m in ongoing.container.live_members() if m.instance is not None]
     late = [c for m in own for c in (*ongoing.received(m, "on_init"), *ongoing.received(m, "on_connect"))]
     if late:
         return check.fail(

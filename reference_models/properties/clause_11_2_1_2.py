@@ -23,6 +23,8 @@ def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) 
     event, member, ongoing, _ = callback
     if member is None or member.suspended or member.operational or event.wrong:
         return ()
+    if not event.dependencies and not member.connections:
+        return ()
     given = handed_over(event)
     again = member.startups > 0
     changing = ongoing.step.port if ongoing is not None and isinstance(ongoing.step, Connect) else ""
@@ -84,11 +86,18 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]], changing: s
 
 
 @property_at("entered", "R-11.2.2.1-10", _DANGLING, at=("on_startup",))
-def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
+def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
     event, member, ongoing, _ = callback
     if member is None or member.operational or event.wrong or (ongoing is not None and ongoing.operation == "connect"):
-        return
+        return ()
+    if not event.dependencies and not member.connections:
+        return ()
+    return _nothing_dangles(check, runtime, callback, member)
+
+
+def _nothing_dangles(check: Property, runtime: ObservedRuntime, callback: Callback, member: Member) -> Conclusions:
+    event, ongoing = callback.event, callback.ongoing
     given = handed_over(event)
     for port, references in given.items():
         over = _all_over(runtime, member, port, references)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Reference, Return
@@ -10,7 +12,7 @@ from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS, OperationInProgress
-from ucm_cts.reference_models.model.runtime import Container, Member
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member
 from ucm_cts.reference_models.model.start_effects import is_stopped_late
 from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
@@ -95,37 +97,54 @@ def _forbidden(
 @property_at("ended", "R-11.2.2.1-03", "R-12.10-02", at=("add_component",))
 def component_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Component ids are 32-bit, and distinct among the live members of a container."""
-    if isinstance(ongoing.end, Return):
-        live = [m.id for m in ongoing.container.live_members() if not m.doubtful]
-        return _identifier(check, ongoing, ongoing.end, live, "component")
-    return ()
+    end, container = ongoing.end, ongoing.container
+    if not isinstance(end, Return):
+        return ()
+    if not isinstance(end.value, int) or not _SMALLEST <= end.value <= _LARGEST:
+        return _out_of_range(check, ongoing, end, "component")
+    is_used = any(not member.doubtful for member in container.present.with_id(end.value))
+    return _in_range(check, ongoing, end, "component", is_used, is_used or container.has_certain_member())
 
 
 @property_at("ended", "R-11.2.2.1-09", "R-12.10-03", at=("connect",))
 def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Connection ids are 32-bit, and distinct among the live connections of a container."""
-    if isinstance(ongoing.end, Return) and ongoing.outcome.permitted:
-        assert isinstance(ongoing.step, s.Connect)
-        replaced = (ongoing.subject, ongoing.step.port)  # what it takes the place of may lend it its id
-        others = [c for c in runtime.all_connections() if c.live and (c.client, c.port) != replaced]
-        live = [c.id for c in others if c.client.container is ongoing.container]
-        return _identifier(check, ongoing, ongoing.end, live, "connection")
-    return ()
+    end, step, container = ongoing.end, ongoing.step, ongoing.container
+    if not isinstance(end, Return) or not ongoing.outcome.permitted:
+        return ()
+    assert isinstance(step, s.Connect)
+    if not isinstance(end.value, int) or not _SMALLEST <= end.value <= _LARGEST:
+        return _out_of_range(check, ongoing, end, "connection")
+
+    def counts(connection: Connection) -> bool:
+        """Does it stand beside the new one, which may have the id of what it takes the place of?"""
+        client = connection.client
+        is_replaced = client is ongoing.subject and connection.port == step.port
+        return bool(connection.live) and not is_replaced and client.container is container
+
+    is_used = any(map(counts, runtime.remembered.with_id(end.value)))
+    # the newest ones first: mostly one of them stands
+    has_others = is_used or any(map(counts, chain(reversed(runtime.connections.values()), runtime.all_connections())))
+    return _in_range(check, ongoing, end, "connection", is_used, has_others)
 
 
-def _identifier(check: Property, ongoing: OperationInProgress, end: Return, live: list[int], kind: str) -> Concluded:
+def _out_of_range(check: Property, ongoing: OperationInProgress, end: Return, kind: str) -> Concluded:
+    text = f"{ongoing.what} returned {printed(end.value)}"
+    expected = f"a {kind} id that fits in 32 bits"
+    return check.fail("range", expected=expected, observed=text, event=end, requirement=check.stands_for[1])
+
+
+def _in_range(
+    check: Property, ongoing: OperationInProgress, end: Return, kind: str, is_used: bool, has_others: bool
+) -> Concluded:
+    """The id fits; ``is_used``: another live one has it; ``has_others``: there are other live ones, which could have it."""
     unique, in_range = check.stands_for
-    value = end.value
-    if not isinstance(value, int) or not _SMALLEST <= value <= _LARGEST:
-        text = f"{ongoing.what} returned {printed(value)}"
-        expected = f"a {kind} id that fits in 32 bits"
-        return check.fail("range", expected=expected, observed=text, event=end, requirement=in_range)
-    if value in live:
-        text = f"{ongoing.what} returned {value}, the id of another live {kind}"
-        return check.kept(in_range), check.fail(
+    if is_used:
+        text = f"{ongoing.what} returned {end.value}, the id of another live {kind}"
+        return in_range, check.fail(
             "in use", expected=f"a {kind} id not in use", observed=text, ended=ongoing, requirement=unique
         )
-    return (check.kept(in_range), check.kept(unique)) if live else check.kept(in_range)
+    return (in_range, unique) if has_others else in_range
 
 
 @property_at("ended", "R-11.2.2.1-06", at=("get_port_element",))
@@ -178,16 +197,18 @@ def listing_problem(runtime: ObservedRuntime, container: Container, listed: tupl
     if container.of_doubt:
         return None
     live = [m.id for m in container.live_members()]
-    missing = [i for i in live if i not in listed]
+    known = set(listed)
+    missing = [i for i in live if i not in known]
     if missing:
         return f"lacks {missing}"
     reachable = list(live)
     if len(runtime.containers) > 1 and container is runtime.containers[s.MANAGER]:
         reachable += [m.id for c in runtime.containers.values() if c is not container for m in c.live_members()]
-    surplus = [i for i in listed if i not in reachable]
+    there = set(reachable)
+    surplus = [i for i in listed if i not in there]
     if surplus:
         return f"holds {surplus}, which are no members"
-    if len(listed) > len(reachable) or (len(set(live)) == len(live) and len(set(listed)) < len(listed) == len(live)):
+    if len(listed) > len(reachable) or (len(set(live)) == len(live) and len(known) < len(listed) == len(live)):
         return "repeats an id"
     return None
 
@@ -216,12 +237,14 @@ def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
     """stop shuts members down in the reverse of the order they were started in, where they were not started at a time."""
     if not isinstance(ongoing.end, Return) or runtime.ics.reading("start-order") == "at-once":
         return ()
+    if len(ongoing.container.startup_order) < 2:
+        return ()
     started = [m for m in ongoing.container.startup_order if not m.gone and not m.suspended]
-    when = {id(m): ongoing.received(m, "on_shutdown") for m in started}
-    stopped = sorted((m for m in started if when[id(m)]), key=lambda m: when[id(m)][0].n)
-    expected = [m for m in reversed(started) if m in stopped]
+    when = {m: received[0].n for m in started if (received := ongoing.received(m, "on_shutdown"))}
+    expected = list(reversed(when))
     if len(expected) < 2:
         return ()
+    stopped = sorted(when, key=when.__getitem__)
     if not is_stopped_late(runtime, stopped):
         if stopped == expected:
             return check.kept()
@@ -230,7 +253,7 @@ def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
         "order",
         expected=f"stop shuts down {', '.join(m.lane for m in expected)}, the reverse of the start",
         observed=f"stop shut down {', '.join(m.lane for m in stopped)}",
-        at=tuple(when[id(m)][0].n for m in stopped),
+        at=tuple(when[m] for m in stopped),
         step=ongoing.step_number,
         instead=tuple(Arrow(ongoing.container.name, m.lane, "on_shutdown") for m in expected),
     )

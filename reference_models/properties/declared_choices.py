@@ -42,7 +42,7 @@ def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgr
     for _, _, fit in certain:
         if len(fit.readings) == 1:
             yield Taken(*fit.readings[0].split("=", 1))
-    undeclared = undeclared_choice(runtime.ics, ongoing, ongoing.end, certain)
+    undeclared = _undeclared(runtime.ics, ongoing.end, certain)
     if undeclared is None:
         return
     member, row, fit = undeclared
@@ -70,7 +70,10 @@ def _is_common(end: Result, certain: Sequence[Fitted]) -> bool:
 
 def undeclared_choice(ics: Ics, ongoing: OperationInProgress, end: Result, fitted: Sequence[Fitted]) -> Fitted | None:
     """The first instance that went a way which the vendor has ruled out; None if there is none."""
-    certain = _choices(ongoing, end, fitted)
+    return _undeclared(ics, end, _choices(ongoing, end, fitted))
+
+
+def _undeclared(ics: Ics, end: Result, certain: Sequence[Fitted]) -> Fitted | None:
     undeclared = [one for one in certain if not any(ics.permits(*reading.split("=", 1)) for reading in one[2].readings)]
     return undeclared[0] if undeclared and (len(undeclared) == len(certain) or not _is_common(end, certain)) else None
 
@@ -118,11 +121,17 @@ def declared_listing(check: Property, runtime: ObservedRuntime, ongoing: Operati
 
 
 @property_at("ended", "R-11.2.3-17", at=("stop",))
-def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
+def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """stop waits for calls in progress if the vendor declares so."""
     if not isinstance(ongoing.end, Return) or not ongoing.judged:
-        return
+        return ()
     inside = {body for bodies in runtime.inside.values() for body in bodies}
+    return _drained(check, runtime, ongoing, inside) if inside else ()
+
+
+def _drained(
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, inside: set[tuple[str, int]]
+) -> Conclusions:
     for member in ongoing.container.live_members():
         if not member.operational or ongoing.outcome.is_unknown(member) or member.body not in inside:
             continue
@@ -137,11 +146,15 @@ def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: Operation
 
 
 @property_at("entered", _REVERSE_ORDER, at=("on_startup",))
-def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
+def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """A framework declared to start members one by one does not start them at a time, by several threads."""
-    event, member, ongoing, _ = callback
-    if member is None or not _is_started(callback):
-        return
+    if not runtime.starting_up or callback.member is None or not _is_started(callback):
+        return ()
+    return _one_by_one(check, runtime, callback, callback.member)
+
+
+def _one_by_one(check: Property, runtime: ObservedRuntime, callback: Callback, member: Member) -> Conclusions:
+    event, ongoing = callback.event, callback.ongoing
     beside = [body for body, thread in runtime.starting_up.items() if thread != event.thread]
     if beside and not (yield from takes(runtime, "start-order", "at-once")):
         yield check.fail(
@@ -153,18 +166,23 @@ def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback
 
 
 @property_at("entered", _REVERSE_ORDER, at=("on_startup",), timed=True)
-def declared_meeting(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
+def declared_meeting(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """A framework declared to start members at once lets none wait until another one's on_startup has ended.
 
     Another one whose on_startup has ended, although the gate it held at was to open when both had come to it, was inside as
     long as there is patience.
     """
-    event, member, ongoing, _ = callback
-    if member is None or not _is_started(callback):
-        return
+    member = callback.member
+    if member is None or not member.declaration.plan or not _is_started(callback):
+        return ()
     meeting = _gates(member) - runtime.opened
-    if not meeting:
-        return
+    return _meeting(check, runtime, callback, member, meeting) if meeting else ()
+
+
+def _meeting(
+    check: Property, runtime: ObservedRuntime, callback: Callback, member: Member, meeting: set[str]
+) -> Conclusions:
+    event, ongoing = callback.event, callback.ongoing
     gone = [m for m in map(runtime.bodies.get, runtime.starting) if m is not None and m is not member]
     before = next((m for m in gone if m.container is member.container and _gates(m) & meeting), None)
     if before is None or (yield from takes(runtime, "start-order", "one-by-one")):

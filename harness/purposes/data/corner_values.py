@@ -149,7 +149,9 @@ def _of_string(of: d.String, readings: Readings) -> list[d.Datum]:
     ]
     full = ["".join(alphabet[(i * 5 + 1) % len(alphabet)] for i in range(size)), "x" * size, "x" * (size - 1) + " "]
     full += ["y" * LONGEST_STRING] if of.size < 0 else []
-    kept = [text for text in shapes + full if (of.size < 0 or len(text) <= size) and all(ord(c) <= last for c in text)]
+    kept = [
+        text for text in shapes + full if (of.size < 0 or len(text) <= size) and (not text or ord(max(text)) <= last)
+    ]
     return list(dict.fromkeys(kept))
 
 

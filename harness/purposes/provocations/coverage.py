@@ -43,14 +43,13 @@ def provocations(scenario: Scenario, trace: Iterable[t.Event]) -> Iterator[Provo
         return
     ongoing: dict[int, Step] = {}
     for event in trace:
-        match event:
-            case t.Call():
-                ongoing[event.step] = scenario.steps[event.step]
-            case t.Return() | t.Raise():
-                ongoing.pop(event.step, None)
-            case t.Enter():
-                for action in planned.get((event.component, event.hook), ()):
-                    yield Provocation(event.hook, _leading(event.hook, ongoing.values()), action)
+        if type(event) is t.Enter:
+            for action in planned.get((event.component, event.hook), ()):
+                yield Provocation(event.hook, _leading(event.hook, ongoing.values()), action)
+        elif type(event) is t.Call:
+            ongoing[event.step] = scenario.steps[event.step]
+        elif type(event) is t.Return or type(event) is t.Raise:
+            ongoing.pop(event.step, None)
 
 
 @dataclass(frozen=True)
