@@ -38,8 +38,6 @@ class Samples:
             return [field.name]
         if field.keys:
             return {word: self._value(field.type.of[0]) for word in self._protocol.enums[field.keys]}
-        if field.type.kind == "map":
-            return dict(zip("mnopqrstuvw", self._several(field.type.of[0]), strict=False))
         return self._value(field.type)
 
     def _value(self, type_: Type) -> Any:
@@ -58,6 +56,8 @@ class Samples:
                 return [1, "x", [True, -(2**40)]]
             case "list":
                 return self._several(type_.of[0])
+            case "map":
+                return dict(zip("mnopqrstuvw", self._several(type_.of[0]), strict=False))
             case "any":
                 return self._value(type_.of[-1])
             case "union" if type_.name == "MaybeReference":
@@ -149,7 +149,8 @@ def mutated_lines() -> list[bytes]:
     )
     method = d.Method((d.Parameter("p", "INOUT", every_type),), (d.Structure("wrong", {}),))
     interfaces = {"i": d.Interface({"m": method}, ("j",))}
-    asked = s.Scenario({"A": declared}, steps, 500, interfaces, ("w",))
+    bound: dict[str, d.AnyType] = {"request_t": d.Integer("LONG"), "result_t": d.String("CHAR8")}
+    asked = s.Scenario({"A": declared}, steps, 500, interfaces, ("w",), {"types": bound})
     message = json.loads(m.encode(m.Run(1, asked, stream=False)))
     message["scenario"]["patience"] = 500
     reach = json.loads(m.encode(m.Run(1, s.Scenario({}, (s.ReachGate("g", 1, 2),), patience=0))))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import platform
-import re
 import signal
 import subprocess
 import time
@@ -49,8 +48,7 @@ def test_refusals_name_the_place(builds: Builds) -> None:
     (first, second, third), _, _ = talk(builds.reference, steps, plan, b'{"type":"hello","protocol":7}\n')
     assert first == m.Refused("Object contains unknown field `x` - at `$.scenario.steps[1]`", 3)
     assert second == m.Refused("Invalid value 'dance' - at `$.scenario.components.A.plan.on_init[0].do`", 4)
-    assert isinstance(third, m.Refused)
-    assert re.search(r"7.*1", third.reason)
+    assert third == m.Refused(f"the harness speaks protocol 7, this host speaks {m.PROTOCOL}")
 
 
 def test_streamed_events_come_first_and_are_those_of_the_trace(builds: Builds) -> None:
