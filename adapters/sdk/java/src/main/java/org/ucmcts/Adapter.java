@@ -62,7 +62,10 @@ public abstract class Adapter<C> {
         throw new NotOffered();
     }
 
-    /** Makes a connection without ends with a {@code connector} of 10.4, bound to data {@code types} by template parameter. */
+    /**
+     * Makes a connection without ends with a {@code connector} of 10.4, bound to data {@code types} by template
+     * parameter.
+     */
     public Object linkWithTypes(C manager, String connector, Node types) throws Exception {
         throw new NotOffered();
     }

@@ -34,7 +34,9 @@ final class Memory {
         }
     }
 
-    /** The arguments of {@code call}, made in {@code entry} or in none; null while the body was not given one of them. */
+    /**
+     * The arguments of {@code call}, made in {@code entry} or in none; null while the body was not given one of them.
+     */
     List<Object> arguments(Action call, Entry entry) {
         List<Object> made = new ArrayList<>(call.arguments());
         for (Remembered one : call.remembered()) {
