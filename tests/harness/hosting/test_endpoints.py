@@ -76,7 +76,7 @@ def listening(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
 STEP = '{"type":"run","id":7,"scenario":{"components":{},"steps":[%s]}}'
 PART = '{"type":"run","id":7,"scenario":{"components":{"A":{%s}},"steps":[]}}'
 REFUSED: dict[str, int | None] = {
-    '{"type":"hello","protocol":2}': None,
+    '{"type":"hello","protocol":3}': None,
     '{"type":"hello","protocol":18446744073709551616}': None,
     '{"type":"run","id":18446744073709551616,"scenario":{"components":{},"steps":[]}}': None,
     '{"type":"run","id":7}': 7,
