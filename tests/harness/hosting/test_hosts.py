@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import psutil
 import pytest
 from files import SUPPORT
 
@@ -49,10 +50,7 @@ def no_leaks() -> Iterator[None]:
 
 
 def children(pid: int) -> set[int]:
-    found: set[int] = set()
-    for task in Path(f"/proc/{pid}/task").iterdir():
-        found.update(map(int, (task / "children").read_text().split()))
-    return found
+    return {child.pid for child in psutil.Process(pid).children()}
 
 
 def around_trigger(adapter: str, limits: Limits, trigger: Scenario = TRIGGER) -> tuple[Answer, list[Answer]]:
