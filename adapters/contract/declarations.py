@@ -78,12 +78,14 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     ``method``: name of the method.
     ``arguments``: values of the IN and INOUT parameters, in order.
     ``remembered``: what takes the place of some of them. The probe does not call while it has not been given one of these.
+    ``given``: it calls only if the body was entered at ``exchange`` with this value.
     """
 
     port: PortElementName
     method: MethodName
     arguments: tuple[Datum, ...] = ()
     remembered: tuple[Remembered, ...] = ()
+    given: Annotated[Int32 | None, Names("payload")] = None
 
 
 class Answer(Value, frozen=True, tag_field="do", tag="answer"):

@@ -278,7 +278,7 @@ class Java:
             case "boolean":
                 return f'flag("{field.name}")'
             case "int32" | "int64":
-                return f'number("{field.name}")'
+                return f'{"numberOrNull" if field.nullable else "number"}("{field.name}")'
             case "datum" | "any" | "integer":
                 return f'get("{field.name}")'
             case "map":

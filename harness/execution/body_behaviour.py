@@ -6,7 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
-from ucm_cts.harness.execution.planned_actions import Act, Plan, as_remembered, is_as_planned, plan_of, remembers
+from ucm_cts.harness.execution.planned_actions import Act, Plan, as_entered, depends_on_entries, is_as_planned, plan_of
 
 _NONE_HELD: dict[str, int] = {}
 """The references of a body that was given none. It stays empty."""
@@ -14,14 +14,14 @@ _NONE_HELD: dict[str, int] = {}
 
 class Body:
     """An instance of a component; ``held`` are the numbers of references of each port element that it has held, one after the
-    other: now the last ones. ``entries`` are those at methods, if its plans name what it was given before.
+    other: now the last ones. ``entries`` are those at methods, if what it calls depends on its entries.
     """
 
-    __slots__ = ("declaration", "entries", "held", "plans", "remembers")
+    __slots__ = ("declaration", "depends_on_entries", "entries", "held", "plans")
 
     def __init__(self, declaration: Declaration) -> None:
         self.declaration = declaration
-        self.remembers = remembers(declaration)
+        self.depends_on_entries = depends_on_entries(declaration)
         self.entries: list[t.Enter] = []
         self.held = [_NONE_HELD]
         self.plans: dict[str, Plan] = {}
@@ -124,7 +124,7 @@ class BodyChecks:
         problem = _entry_problem(body.declaration, event)
         if event.dependencies is not None:
             body.be_given(event.dependencies)
-        if body.remembers and event.hook == "method":
+        if body.depends_on_entries and event.hook == "method":
             body.entries.append(event)
         thread.frames.append(Frame(event, body))
         return problem
@@ -182,8 +182,8 @@ class BodyChecks:
             due = _due_results(plan, enter)
             if (event.results, event.exception) != due:
                 return f"{enter.method} gave {event.results!r}, its plan says {due[0]!r}"
-        if body.remembers:
-            actions = as_remembered(actions, acts, enter, body.entries)
+        if body.depends_on_entries:
+            actions = as_entered(actions, acts, enter, body.entries)
         # most bodies have nothing to do
         if (actions or acts) and not is_as_planned(actions, acts, body.held_since(frame.began)):
             return f"{event.component} did not act in {event.hook} as its plan says"

@@ -191,6 +191,8 @@ class Disguise:
         changed: dict[str, str | int | dict[str, str]] = {}
         for field, trait in _disguised_fields(type(value)):
             plain = getattr(value, field)
+            if plain is None:
+                continue
             if isinstance(trait, Names):
                 changed[field] = _IN_DISGUISE[trait.subject](self, plain)
             elif not plain:

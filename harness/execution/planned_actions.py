@@ -31,20 +31,24 @@ def plan_of(declaration: Declaration, hook: s.Hook) -> Plan:
     return Plan(actions, any(isinstance(a, s.RaiseError) for a in actions), returned[-1] if returned else None)
 
 
-def remembers(declaration: Declaration) -> bool:
-    """Does a plan of the body name what it was given before?"""
-    return any(isinstance(a, s.CallMethod) and a.remembered for plan in declaration.plan.values() for a in plan)
+def depends_on_entries(declaration: Declaration) -> bool:
+    """Does what the body calls depend on what it was entered with, or had been given before?"""
+    calls = [a for plan in declaration.plan.values() for a in plan if isinstance(a, s.CallMethod)]
+    return any(call.remembered or call.given is not None for call in calls)
 
 
-def as_remembered(
+def as_entered(
     plan: Sequence[Action], acts: Sequence[Act], enter: Enter, entries: Sequence[Enter]
 ) -> tuple[Action, ...]:
     """The plan of a body that was entered by ``enter``, with the values that it had been given at its ``entries``.
 
-    A call is left out if the body had not been given one of its values; if it was given it meanwhile, the ``acts`` decide.
+    A call is left out if the body was entered with another value, or had not been given one of the call's values; if it was given
+    it meanwhile, the ``acts`` decide.
     """
     found: list[Action] = []
     for action in plan:
+        if isinstance(action, s.CallMethod) and action.given not in (None, enter.value):
+            continue
         if not isinstance(action, s.CallMethod) or not action.remembered:
             found.append(action)
             continue

@@ -56,8 +56,11 @@ def with_payloads(scenario: Scenario, change: Callable[[int], int]) -> Scenario:
     """``scenario`` with each payload changed."""
 
     def action(one: Action) -> Action:
-        carries = isinstance(one, s.CallPort | s.ReturnValue)
-        return msgspec.structs.replace(one, value=change(one.value)) if carries else one  # type: ignore[union-attr]
+        if isinstance(one, s.CallPort | s.ReturnValue):
+            return msgspec.structs.replace(one, value=change(one.value))
+        if isinstance(one, s.CallMethod) and one.given is not None:
+            return msgspec.structs.replace(one, given=change(one.given))
+        return one
 
     def declaration(one: Declaration) -> Declaration:
         plan = {hook: tuple(map(action, actions)) for hook, actions in one.plan.items()}
@@ -76,5 +79,10 @@ def with_payloads(scenario: Scenario, change: Callable[[int], int]) -> Scenario:
 def _payloads(scenario: Scenario) -> list[int]:
     """The distinct payloads of ``scenario``, in the order they are met."""
     actions = (a for one in scenario.components.values() for planned in one.plan.values() for a in planned)
-    carrying = [a.value for a in actions if isinstance(a, s.CallPort | s.ReturnValue)]
-    return list(dict.fromkeys([*carrying, *(one.value for one in scenario.steps if isinstance(one, s.Invoke))]))
+    carrying = [
+        a.given if isinstance(a, s.CallMethod) else a.value
+        for a in actions
+        if isinstance(a, s.CallPort | s.ReturnValue | s.CallMethod)
+    ]
+    invoked = [one.value for one in scenario.steps if isinstance(one, s.Invoke)]
+    return list(dict.fromkeys(value for value in (*carrying, *invoked) if value is not None))

@@ -14,10 +14,11 @@ from ucm_cts.adapters.sdk.python.seal import KeptClass
 
 @dataclass(frozen=True)
 class Entry:
-    """A body was entered at ``method`` with these ``arguments``."""
+    """A body was entered at ``method`` with these ``arguments``, or at ``exchange`` with ``value``."""
 
-    method: str
-    arguments: tuple[Datum, ...]
+    method: str = ""
+    arguments: tuple[Datum, ...] = ()
+    value: int | None = None
 
 
 class Memory(metaclass=KeptClass):
@@ -42,8 +43,12 @@ class Memory(metaclass=KeptClass):
             self._seen.append(entry)
         return entry
 
-    def arguments(self, call: s.CallMethod, entry: Entry | None) -> tuple[Datum, ...] | None:
-        """The arguments of ``call``, made in ``entry`` if there is one; None while the body was not given one of them."""
+    def arguments(self, call: s.CallMethod, entry: Entry) -> tuple[Datum, ...] | None:
+        """The arguments of ``call``, made in ``entry``; None if it is not to be made: the body was entered with another value, or
+        was not given one of them yet.
+        """
+        if call.given is not None and call.given != entry.value:
+            return None
         if not call.remembered:
             return call.arguments
         made = list(call.arguments)
@@ -54,9 +59,9 @@ class Memory(metaclass=KeptClass):
             made[one.argument] = found.arguments[one.position]
         return tuple(made)
 
-    def _find(self, one: s.Remembered, entry: Entry | None) -> Entry | None:
+    def _find(self, one: s.Remembered, entry: Entry) -> Entry | None:
         if one.nth == 0:
-            return entry if entry is not None and entry.method == one.method else None
+            return entry if entry.method == one.method else None
         with self._lock:
             matching = [seen for seen in self._seen if seen.method == one.method]
         return matching[one.nth - 1] if one.nth <= len(matching) else None

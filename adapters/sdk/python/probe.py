@@ -232,6 +232,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         if not self.stage.recorder.recording:
             return result
         self._record(t.Enter, hook=hook, **arguments)
+        entry = Entry(value=arguments.get("value"))
         for action in self._plan.get(hook, ()):
             if isinstance(action, s.RaiseError):
                 self._record(t.Exit, hook=hook, raised=True)
@@ -240,12 +241,12 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
                 if hook == "exchange":
                     result = action.value
             else:
-                self._act(action)
+                self._act(action, entry)
         self._record(t.Exit, hook=hook, value=result)
         return result
 
-    def _act(self, action: Action, entry: Entry | None = None) -> None:
-        """Carry out ``action``, in the ``entry`` at a method if there is one."""
+    def _act(self, action: Action, entry: Entry) -> None:
+        """Carry out ``action`` of the plan for ``entry``."""
         if isinstance(action, s.CallPort):
             for reference in tuple(self._references.get(action.port, ())):
                 self._call(action.port, reference, action.value)

@@ -2,9 +2,11 @@
 #ifndef UCM_CTS_MEMORY_HPP
 #define UCM_CTS_MEMORY_HPP
 
+#include <cstdint>
 #include <mutex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ucm_cts/data_types.hpp"
@@ -12,10 +14,16 @@
 
 namespace ucm_cts {
 
-/// A body was entered at `method` with these `arguments`.
+/// A body was entered at `method` with these `arguments`, at `exchange` with `value`, or at another hook.
 struct Entry {
     std::string method;
     Data arguments;
+    bool has_value = false;
+    std::int32_t value = 0;
+
+    Entry() = default;
+    explicit Entry(std::int32_t given) : has_value(true), value(given) {}
+    Entry(std::string entered, Data given) : method(std::move(entered)), arguments(std::move(given)) {}
 };
 
 /// The arguments of the methods that a plan wants remembered.
@@ -43,8 +51,12 @@ class Memory {
         seen_.push_back(entry);
     }
 
-    /// The arguments of `call`, made in `entry` if it is not null; false while the body was not given one of them.
-    bool arguments(const Action& call, const Entry* entry, Data& into) {
+    /// The arguments of `call`, made in `entry`; false if it is not to be made: the body was entered with another value, or
+    /// was not given one of them yet.
+    bool arguments(const Action& call, const Entry& entry, Data& into) {
+        if (call.has_given && !(entry.has_value && call.given == entry.value)) {
+            return false;
+        }
         into = call.arguments;
         for (const Remembered& one : call.remembered) {
             Entry found;
@@ -61,13 +73,10 @@ class Memory {
         return index >= 0 && static_cast<std::size_t>(index) < data.size();
     }
 
-    bool find(const Remembered& one, const Entry* entry, Entry& found) {
+    bool find(const Remembered& one, const Entry& entry, Entry& found) {
         if (one.nth == 0) {
-            if (entry == nullptr || entry->method != one.method) {
-                return false;
-            }
-            found = *entry;
-            return true;
+            found = entry;
+            return entry.method == one.method;
         }
         std::lock_guard<std::mutex> lock(mutex_);
         std::int32_t nth = 0;

@@ -58,7 +58,7 @@ class Probe {
             return;
         }
         record(entry);
-        perform(hook, nullptr);
+        perform(hook);
         record(exit(hook));
     }
 
@@ -76,7 +76,7 @@ class Probe {
             return result;
         }
         record(entry(Hook::exchange).port(port).value(value));
-        perform(Hook::exchange, &result);
+        perform(Hook::exchange, Entry(value), &result);
         record(exit(Hook::exchange).value(result));
         return result;
     }
@@ -96,9 +96,9 @@ class Probe {
         if (!sound || messages_) {
             entered.wrong(in_words(arguments));
         }
-        const Entry now = {method, given};
+        const Entry now(method, given);
         memory_.enter(now, [this, &entered] { record(entered); });
-        perform(Hook::method, nullptr, &now);
+        perform(Hook::method, now);
         return answer(method, given);
     }
 
@@ -180,8 +180,8 @@ class Probe {
     events::Request request(const std::string& port) const { return events::Request(name(), instance_, port); }
     events::Reply reply(const std::string& port) const { return events::Reply(name(), instance_, port); }
 
-    // `now` is the entry at a method in which the plan is performed, if it is one.
-    void perform(Hook hook, std::int32_t* result, const Entry* now = nullptr) {
+    // `now` is the entry in which the plan is performed, `result` what `exchange` is to return.
+    void perform(Hook hook, const Entry& now = Entry(), std::int32_t* result = nullptr) {
         for (const Action& action : plan_of(hook)) {
             switch (action.kind) {
                 case Action::Kind::raise:
@@ -227,7 +227,7 @@ class Probe {
         }
     }
 
-    void call_method(const Action& action, const Entry* now) {
+    void call_method(const Action& action, const Entry& now) {
         Data given;
         if (memory_.arguments(action, now, given)) {
             for (const Reference& reference : references(action.port)) {

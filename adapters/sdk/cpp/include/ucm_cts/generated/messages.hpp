@@ -80,6 +80,10 @@ struct Action {
     /// Of call_method.
     std::vector<Remembered> remembered;
 
+    /// Of call_method.
+    std::int32_t given = 0;
+    bool has_given = false;
+
     /// Of answer.
     std::vector<Datum> results;
     bool has_results = false;

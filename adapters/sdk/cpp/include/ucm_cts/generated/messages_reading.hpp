@@ -63,6 +63,7 @@ inline void read_members(json::Fields& fields, Action& into) {
             fields.required("method", into.method);
             fields.optional("arguments", into.arguments);
             fields.optional("remembered", into.remembered);
+            into.has_given = fields.nullable("given", into.given);
             break;
         case Action::Kind::answer:
             fields.required("method", into.method);

@@ -79,7 +79,8 @@ final class Messages {
                     needs("port", TEXT),
                     needs("method", TEXT),
                     may("arguments", list(DATUM), List.of()),
-                    may("remembered", list(Messages::readRemembered), List.of())),
+                    may("remembered", list(Messages::readRemembered), List.of()),
+                    may("given", orNull(INT32), null)),
             new Kind("answer",
                     needs("method", TEXT),
                     may("results", orNull(list(DATUM)), null),
@@ -130,6 +131,11 @@ final class Messages {
         /** Of call_method. */
         List<Remembered> remembered() {
             return as(get("remembered"));
+        }
+
+        /** Of call_method. */
+        Long given() {
+            return numberOrNull("given");
         }
 
         /** Of answer. */

@@ -20,12 +20,7 @@ final class Actions {
         this.probe = probe;
     }
 
-    /** Carries {@code action} out; kinds that are not listed have no effect at this hook. */
-    void act(Action action) {
-        act(action, null);
-    }
-
-    /** Carries {@code action} out in {@code entry} at a method, or in none. */
+    /** Carries {@code action} of the plan for {@code entry} out; kinds that are not listed have no effect. */
     void act(Action action, Memory.Entry entry) {
         switch (action.tag()) {
             case "call" -> referencesOf(action).forEach(reference -> exchange(action, reference));

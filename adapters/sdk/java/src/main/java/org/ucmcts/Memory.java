@@ -10,8 +10,11 @@ import org.ucmcts.Messages.Remembered;
 
 /** What a body was given before, for the plans that name it. */
 final class Memory {
-    /** A body was entered at {@code method} with these {@code arguments}. */
-    record Entry(String method, List<Object> arguments) {}
+    /**
+     * A body was entered at {@code method} with these {@code arguments}, or at {@code exchange} with {@code value}, which
+     * is null elsewhere.
+     */
+    record Entry(String method, List<Object> arguments, Long value) {}
 
     private final Set<String> methods = new HashSet<>();
     private final List<Entry> seen = new ArrayList<>();
@@ -35,9 +38,13 @@ final class Memory {
     }
 
     /**
-     * The arguments of {@code call}, made in {@code entry} or in none; null while the body was not given one of them.
+     * The arguments of {@code call}, made in {@code entry}; null if it is not to be made: the body was entered with
+     * another value, or was not given one of them yet.
      */
     List<Object> arguments(Action call, Entry entry) {
+        if (call.given() != null && !call.given().equals(entry.value())) {
+            return null;
+        }
         List<Object> made = new ArrayList<>(call.arguments());
         for (Remembered one : call.remembered()) {
             Entry found = find(one, entry);
@@ -52,7 +59,7 @@ final class Memory {
 
     private Entry find(Remembered one, Entry entry) {
         if (one.nth() == 0) {
-            return entry != null && entry.method().equals(one.method()) ? entry : null;
+            return entry.method().equals(one.method()) ? entry : null;
         }
         synchronized (seen) {
             List<Entry> matching = seen.stream().filter(each -> each.method().equals(one.method())).toList();

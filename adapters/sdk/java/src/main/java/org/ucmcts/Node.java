@@ -32,6 +32,11 @@ public class Node {
         return ((Number) fields.get(name)).longValue();
     }
 
+    /** The field {@code name} as a number, or null. */
+    public Long numberOrNull(String name) {
+        return fields.get(name) == null ? null : number(name);
+    }
+
     /** The field {@code name} as a truth value. */
     public boolean flag(String name) {
         return (Boolean) fields.get(name);

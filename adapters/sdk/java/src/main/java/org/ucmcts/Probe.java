@@ -101,7 +101,7 @@ class Probe implements Body {
     @Override
     public void onInit() {
         synchronized (attributes) {
-            visit("on_init", null, "attributes", Map.copyOf(attributes));
+            visit("on_init", null, null, "attributes", Map.copyOf(attributes));
         }
     }
 
@@ -121,7 +121,7 @@ class Probe implements Body {
             recorded.add(Map.of("port", connection.fromPort(), "references", recognised));
         }
         actions.references = references;
-        visit("on_startup", null, "dependencies", recorded, "wrong", wrong);
+        visit("on_startup", null, null, "dependencies", recorded, "wrong", wrong);
     }
 
     /** What of the connections is of a wrong type or too much, for people; null if nothing is. */
@@ -150,7 +150,7 @@ class Probe implements Body {
     @Override
     public void onShutdown() {
         try {
-            visit("on_shutdown", null);
+            visit("on_shutdown", null, null);
         } finally {
             actions.references = Map.of();
         }
@@ -159,7 +159,7 @@ class Probe implements Body {
     @Override
     public void onRemove() {
         try {
-            visit("on_remove", null);
+            visit("on_remove", null, null);
         } finally {
             actions.container = null;
         }
@@ -177,12 +177,12 @@ class Probe implements Body {
 
     private void run() {
         if (!stage.isStressed(this)) {
-            visit("run", null);
+            visit("run", null, null);
         }
     }
 
     private int exchange(String port, int value) {
-        return stage.isStressed(this) ? ~value : visit("exchange", ~value, "port", port, "value", value);
+        return stage.isStressed(this) ? ~value : visit("exchange", ~value, (long) value, "port", port, "value", value);
     }
 
     private List<Object> call(String port, String method, List<Object> arguments) {
@@ -197,7 +197,7 @@ class Probe implements Body {
         }
         List<Object> given = isSound ? Data.copy(arguments) : List.of();
         String wrong = isSound && !counts ? null : Data.inWords(arguments);
-        Memory.Entry entry = new Memory.Entry(method, given);
+        Memory.Entry entry = new Memory.Entry(method, given, null);
         memory.enter(entry, () -> record(
                 "enter", "hook", "method", "port", port, "method", method, "arguments", given, "wrong", wrong));
         Action answer = null;
@@ -225,8 +225,12 @@ class Probe implements Body {
         return results;
     }
 
-    /** Records {@code enter}, carries out the plan, records {@code exit}; returns what the hook returns. */
-    private Integer visit(String hook, Integer result, Object... arguments) {
+    /**
+     * Records {@code enter}, carries out the plan, records {@code exit}; returns what the hook returns.
+     *
+     * @param given the argument of {@code exchange}, or null
+     */
+    private Integer visit(String hook, Integer result, Long given, Object... arguments) {
         if (!stage.recorder.isRecording()) {
             return result;
         }
@@ -234,6 +238,7 @@ class Probe implements Body {
         Collections.addAll(entered, arguments);
         record("enter", entered.toArray());
         Integer returned = result;
+        Memory.Entry entry = new Memory.Entry("", List.of(), given);
         for (Action action : actions(hook)) {
             switch (action.tag()) {
                 case "raise" -> {
@@ -245,7 +250,7 @@ class Probe implements Body {
                         returned = (int) action.value();
                     }
                 }
-                default -> actions.act(action);
+                default -> actions.act(action, entry);
             }
         }
         record("exit", "hook", hook, "value", returned);
@@ -270,18 +275,18 @@ class Probe implements Body {
     /** For those that are {@link Connectable}. */
     public final void onConnect(String portName, PortElement required) {
         Object reference = stage.recognise(required);
-        visit("on_connect", null, "port", portName, "reference", reference, "wrong", wrongIn(portName));
+        visit("on_connect", null, null, "port", portName, "reference", reference, "wrong", wrongIn(portName));
     }
 
     /** For those that are {@link Connectable}. */
     public final void onDisconnect(String portName) {
-        visit("on_disconnect", null, "port", portName, "wrong", wrongIn(portName));
+        visit("on_disconnect", null, null, "port", portName, "wrong", wrongIn(portName));
     }
 
     /** For those that are {@link Fragment}. */
     public final void setContainerInterface(Fragment.ContainerInterface container) {
         actions.container = container;
-        visit("set_container_interface", null);
+        visit("set_container_interface", null, null);
     }
 
     private static final class ConnectableOnly extends Probe implements Connectable {
