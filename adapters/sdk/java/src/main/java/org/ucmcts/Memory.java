@@ -11,8 +11,8 @@ import org.ucmcts.Messages.Remembered;
 /** What a body was given before, for the plans that name it. */
 final class Memory {
     /**
-     * A body was entered at {@code method} with these {@code arguments}, or at {@code exchange} with {@code value}, which
-     * is null elsewhere.
+     * A body was entered at {@code method} with these {@code arguments}, or at {@code exchange} with {@code value},
+     * which is null elsewhere.
      */
     record Entry(String method, List<Object> arguments, Long value) {}
 
