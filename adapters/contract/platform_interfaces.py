@@ -21,6 +21,11 @@ REQUEST_DATA, RESPONSE_DATA, SHARED = "request_data_t", "response_data_t", "shar
 REQUEST, RESPONSE = "request", "response"
 """The methods of 10.4.1."""
 
+WRITE, PUBLISH, CANCEL = "write_data", "publish_data", "cancel_data"
+READ, FREEZE, RELEASE = "read_data", "freeze_data", "release_data"
+NOTIFY = "on_data_update"
+"""Those of 10.4.2: of writers, of readers, and of the notification."""
+
 _ID = Integer("ULONG")
 _CODE = Parameter("ecode", "RETURN", COMM_ECODE)
 
@@ -51,16 +56,16 @@ def _responses(types: BoundTypes) -> Interface:
 
 def _reader(types: BoundTypes) -> Interface:
     read = Method((Parameter("data", "OUT", types[SHARED]), _CODE))
-    return Interface({"freeze_data": Method((_CODE,)), "release_data": Method((_CODE,)), "read_data": read})
+    return Interface({FREEZE: Method((_CODE,)), RELEASE: Method((_CODE,)), READ: read})
 
 
 def _notification(types: BoundTypes) -> Interface:
-    return Interface({"on_data_update": Method()})
+    return Interface({NOTIFY: Method()})
 
 
 def _writer(types: BoundTypes) -> Interface:
     write = Method((Parameter("data", "IN", types[SHARED]), _CODE))
-    return Interface({"write_data": write, "publish_data": Method((_CODE,)), "cancel_data": Method((_CODE,))})
+    return Interface({WRITE: write, PUBLISH: Method((_CODE,)), CANCEL: Method((_CODE,))})
 
 
 _INTERFACES: dict[str, dict[str, Callable[[BoundTypes], Interface]]] = {
@@ -76,12 +81,7 @@ _INTERFACES: dict[str, dict[str, Callable[[BoundTypes], Interface]]] = {
 PARAMETERS: Mapping[str, tuple[str, ...]] = {REQUEST_RESPONSE: (REQUEST_DATA, RESPONSE_DATA), SHARED_DATA: (SHARED,)}
 """The template parameters of each connector, by its name."""
 
-METHODS: Final = frozenset(
-    (
-        *(REQUEST, RESPONSE),
-        *("freeze_data", "release_data", "read_data", "on_data_update", "write_data", "publish_data", "cancel_data"),
-    )
-)
+METHODS: Final = frozenset((REQUEST, RESPONSE, WRITE, PUBLISH, CANCEL, READ, FREEZE, RELEASE, NOTIFY))
 """The methods of all interfaces here."""
 
 

@@ -17,11 +17,11 @@ from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.reference.python.connectors import AnyLink, Link
 from ucm_cts.adapters.reference.python.container_services import OffersServices, Record
+from ucm_cts.adapters.reference.python.extensions import UsesExtensions
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
-from ucm_cts.adapters.reference.python.request_response import UsesRequestResponse
 
 
-class Container(OffersServices, UsesRequestResponse):
+class Container(OffersServices, UsesExtensions):
     """Members with a common life cycle (11.2.2.1)."""
 
     manager: ContainerManager

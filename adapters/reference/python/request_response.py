@@ -9,38 +9,17 @@ from __future__ import annotations
 
 import itertools
 import threading
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract import platform_interfaces as platform
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import AnyType, Datum
 from ucm_cts.adapters.contract.data_values import a_value
-from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS, REQUEST, RESPONSE, ConnectorPort, Element
-from ucm_cts.adapters.reference.python.connectors import (
-    COMM_ERROR,
-    INTERNAL_ERROR,
-    OK,
-    AnyLink,
-    Taker,
-    UsesConnectors,
-)
-from ucm_cts.adapters.reference.python.members import HasMembers, Member
-
-
-@dataclass(eq=False)
-class End:
-    """A port of a component, attached to a connector port."""
-
-    member: Member
-    port: str
-    kind: ConnectorPort
-    taker: Taker | None = None
-
-    def name_of(self, element: Element) -> str:
-        """How the framework spells the name of that port element."""
-        return f"{self.port}_{element.name}"
+from ucm_cts.adapters.contract.platform_interfaces import REQUEST, RESPONSE
+from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK, UsesConnectors
+from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.port_links import End, PortLink
 
 
 @dataclass(eq=False)
@@ -53,99 +32,24 @@ class OpenRequest:
     response: Datum | None = None
 
 
-class RequestElement(pm.PortElementObject):
-    """The port element of the connector that ``end`` requires."""
+class RequestResponseLink(PortLink):
+    """A connection with a request-response connector."""
 
-    def __init__(self, link: RequestResponseLink, end: End, method: str) -> None:
-        self.link, self.end, self.method = link, end, method
-
-    def exchange(self, value: int) -> int:
-        raise pm.UcmError("the port element has another interface")
-
-    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        if method != self.method:
-            raise pm.UcmError(f"the interface has no method {method!r}")
-        return self.link.send(self.end, arguments)
-
-
-class RequestResponseLink(AnyLink):
-    """A connection with a request-response connector. One concern a method, for variants to override."""
+    connector = platform.REQUEST_RESPONSE
 
     def __init__(self, manager: UsesConnectors, types: Mapping[str, AnyType]) -> None:
-        super().__init__(manager)
-        self.types = types
-        self.interfaces = platform.interfaces_of(types)
-        self.ends: list[End] = []
+        super().__init__(manager, types)
         self.requests: dict[int, OpenRequest] = {}
         self.numbers = itertools.count(1)
-        self.lock = threading.Lock()
-
-    # operations of the adapter
-
-    def attach(self, role: str, container: HasMembers, comp_instance: int, port: str) -> None:
-        with container._operation():
-            member = container._find_member(comp_instance)
-            kind = CONNECTOR_PORTS.get(role)
-            if kind is None or kind.connector != platform.REQUEST_RESPONSE:
-                raise pm.BadParameter(f"the connector has no port {role!r}")
-            end = End(member, port, kind)
-            container._check_configuring()
-            self._check_elements(end)
-            self._check_room(end)
-            self._add(end)
-
-    def detach(self, container: HasMembers, comp_instance: int, port: str) -> None:
-        with container._operation():
-            member = container._find_member(comp_instance)
-            ends = [end for end in self.ends if (end.member, end.port) == (member, port)]
-            if not ends:
-                raise pm.NotFound(f"{port!r} of component {comp_instance} is no end of this connection")
-            container._check_configuring()
-            for end in ends:
-                self._leave(end)
-                for connection in container._connections_from(member):
-                    if isinstance(connection.target, RequestElement) and connection.target.end is end:
-                        container._undo(connection)
 
     def abandon(self, member: Member) -> None:
         for request in list(self.requests.values()):
             if request.client.member is member or self._server_is(member):
                 self._drop(request)
 
-    def leave(self, member: Member) -> None:
-        for end in [end for end in self.ends if end.member is member]:
-            self._leave(end)
-
-    # ends
-
-    def _check_elements(self, end: End) -> None:
-        for element in end.kind.elements:
-            name, implementation = end.name_of(element), end.member.implementation
-            if name not in (implementation.provides if element.provided else implementation.requires):
-                raise pm.NotFound(f"no port element {name!r}")
-            if implementation.interfaces.get(name) != self.interfaces[element.interface]:
-                raise pm.BadParameter(f"{name!r} has another interface than the connection")
-            if not element.provided and end.member.container._is_connected(end.member, name):
-                raise pm.UcmError(f"{name!r} is connected already")
-
     def _check_room(self, end: End) -> None:
         if end.kind.side == "server" and self._server() is not None:
             raise pm.UcmError("the connection has a server already")
-
-    def _add(self, end: End) -> None:
-        if end.kind.provided is not None:
-            end.taker = Taker(end.member, end.name_of(end.kind.provided))
-            self.takers.append(end.taker)
-        self.ends.append(end)
-        if end.kind.required is not None:
-            method = REQUEST if end.kind.side == "client" else RESPONSE
-            element = RequestElement(self, end, method)
-            end.member.container._connect_to(end.member, end.name_of(end.kind.required), element)
-
-    def _leave(self, end: End) -> None:
-        self.ends.remove(end)
-        if end.taker is not None:
-            self.remove(end.taker)
 
     def _server(self) -> End | None:
         return next((end for end in self.ends if end.kind.side == "server"), None)
@@ -156,8 +60,8 @@ class RequestResponseLink(AnyLink):
 
     # requests
 
-    def send(self, end: End, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        """Carry out the call of a client, or of an asynchronous server."""
+    def carry_out(self, end: End, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        """Of a client, or of an asynchronous server."""
         if end.kind.side == "server":
             return [self._respond(*arguments)]
         if end.kind.provided is None:
@@ -249,37 +153,3 @@ class RequestResponseLink(AnyLink):
     def _drop(self, request: OpenRequest) -> None:
         self._close(request.number)
         request.given.set()
-
-    def _code_of_fault(self) -> str:
-        return COMM_ERROR if self.broken == "transport" else INTERNAL_ERROR
-
-    def _post(self, end: End, work: Callable[[], None]) -> None:
-        """Do ``work`` on the thread of ``end``, after what was posted before."""
-        taker = end.taker
-        assert taker is not None
-        with taker.lock:
-            if taker.entrance.is_open:
-                taker.messages.put(work)
-                if taker.thread is None:
-                    taker.thread = threading.Thread(target=self._work, args=(taker,), daemon=True)
-                    taker.thread.start()
-
-    def _work(self, taker: Taker) -> None:
-        while (work := taker.messages.get()) is not None:
-            with suppress(Exception):  # nobody waits for it
-                work()
-
-
-class UsesRequestResponse(UsesConnectors):
-    """The part of a container that has to do with connectors of 10.4."""
-
-    request_response_class: type[RequestResponseLink] = RequestResponseLink
-
-    def link_with_types(self, connector: str, types: Mapping[str, AnyType]) -> AnyLink:
-        """A connection without ends, with a connector of 10.4. Raises ``UcmError`` if there is no such connector."""
-        with self._operation():
-            if platform.connector_of(types) != connector or connector != platform.REQUEST_RESPONSE:
-                raise pm.UcmError(f"no connector {connector!r} for {', '.join(types)}")
-            link = self.request_response_class(self.manager, types)
-            self.manager.extended_links.append(link)
-            return link

@@ -9,7 +9,8 @@ from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if
 from ucm_cts.adapters.mutants.python.registry import REQUESTS, Base, breaks
 from ucm_cts.adapters.reference.python.connectors import AnyLink
-from ucm_cts.adapters.reference.python.request_response import End, RequestResponseLink
+from ucm_cts.adapters.reference.python.port_links import End
+from ucm_cts.adapters.reference.python.request_response import RequestResponseLink
 
 Link = RequestResponseLink
 

@@ -10,7 +10,8 @@ from ucm_cts.adapters.contract.platform_interfaces import REQUEST, RESPONSE_DATA
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import REQUESTS, breaks
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, INTERNAL_ERROR, OK
-from ucm_cts.adapters.reference.python.request_response import End, OpenRequest, RequestResponseLink
+from ucm_cts.adapters.reference.python.port_links import End
+from ucm_cts.adapters.reference.python.request_response import OpenRequest, RequestResponseLink
 
 Link = RequestResponseLink
 
@@ -46,22 +47,22 @@ class loses_the_first_request(Link):
 class adds_seven_to_requests(Link):
     """Small numbers among requests reach the server increased by seven."""
 
-    def send(self, end: End, arguments: Sequence[Datum]) -> Sequence[Datum]:
+    def carry_out(self, end: End, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         value = arguments[0]
         if end.kind.side == "client" and type(value) is int and 0 < value < 1000:
-            return super().send(end, [value + 7])
-        return super().send(end, arguments)
+            return super().carry_out(end, method, [value + 7])
+        return super().carry_out(end, method, arguments)
 
 
 @breaks("R-10.4.1.1-33", clauses=REQUESTS)
 class truncates_texts(Link):
     """Texts among requests lose their last character."""
 
-    def send(self, end: End, arguments: Sequence[Datum]) -> Sequence[Datum]:
+    def carry_out(self, end: End, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         value = arguments[0]
         if end.kind.side == "client" and isinstance(value, str) and len(value) > 4 and value.isalpha():
-            return super().send(end, [value[:-1]])
-        return super().send(end, arguments)
+            return super().carry_out(end, method, [value[:-1]])
+        return super().carry_out(end, method, arguments)
 
 
 @breaks("R-10.4.1.2-02", clauses=REQUESTS, also=("R-10.4.1.2-03", "R-10.4.1.2-21"))
@@ -137,12 +138,12 @@ class holds_back_other_clients(Link):
 class serves_the_first_client_only(Link):
     """Requests of all clients but the first are lost, and give ok."""
 
-    def send(self, end: End, arguments: Sequence[Datum]) -> Sequence[Datum]:
+    def carry_out(self, end: End, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         clients = [one for one in self.ends if one.kind.side == "client"]
         if end.kind.side == "client" and end is not clients[0] and not self.broken:
             empty = a_value(self.types[RESPONSE_DATA]) if end.kind.provided is None else next(self.numbers)
             return [empty, OK]
-        return super().send(end, arguments)
+        return super().carry_out(end, method, arguments)
 
 
 @replaces("_request", "R-10.4.1.1-34", clauses=REQUESTS)

@@ -10,7 +10,8 @@ from ucm_cts.adapters.contract.platform_interfaces import RESPONSE, RESPONSE_DAT
 from ucm_cts.adapters.mutants.python.methods import does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import REQUESTS, Base, breaks
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK
-from ucm_cts.adapters.reference.python.request_response import End, OpenRequest, RequestResponseLink
+from ucm_cts.adapters.reference.python.port_links import End
+from ucm_cts.adapters.reference.python.request_response import OpenRequest, RequestResponseLink
 
 Link = RequestResponseLink
 

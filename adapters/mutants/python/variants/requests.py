@@ -11,7 +11,8 @@ from ucm_cts.adapters.mutants.python.methods import refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import REQUESTS, variant_of
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK, Taker
 from ucm_cts.adapters.reference.python.members import Member
-from ucm_cts.adapters.reference.python.request_response import End, OpenRequest, RequestResponseLink
+from ucm_cts.adapters.reference.python.port_links import End
+from ucm_cts.adapters.reference.python.request_response import OpenRequest, RequestResponseLink
 
 Link = RequestResponseLink
 
