@@ -7,17 +7,13 @@ comes back with answers by its value.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.platform_interfaces import REQUEST, REQUEST_RESPONSE, RESPONSE
-from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.reference_models.model.extended_links import changes_between, end_at
 from ucm_cts.reference_models.model.links import End, LinkState
-from ucm_cts.reference_models.model.messages import waited_for
-from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall, Operation
+from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Received, Requests
-from ucm_cts.reference_models.model.runtime import Member
 
 
 def all_requests(runtime: ObservedRuntime) -> list[Requests]:
@@ -33,11 +29,11 @@ def _paired(runtime: ObservedRuntime, link: LinkState) -> Requests:
     interactions = runtime.interactions
     calls = [call for call in interactions.calls if call.link is link]
     for call in calls:
-        client = _end_at(link, call.caller, call.request.port, call.request.n)
+        client = end_at(link, call.caller, call.request.port, call.request.n)
         if client is not None and client.side == "client" and call.request.method == REQUEST:
             found.asked.append(Asked(call, client))
     for delivery in (d for d in interactions.deliveries if d.link is link):
-        end = _end_at(link, delivery.receiver, delivery.enter.port or "", delivery.enter.n)
+        end = end_at(link, delivery.receiver, delivery.enter.port or "", delivery.enter.n)
         if end is not None and end.side == "server" and delivery.enter.method == REQUEST:
             found.received.append(Received(delivery, end))
         elif end is not None and end.side == "client" and delivery.enter.method == RESPONSE:
@@ -46,12 +42,6 @@ def _paired(runtime: ObservedRuntime, link: LinkState) -> Requests:
     _find_answers(found, calls)
     _pair_callbacks(found)
     return found
-
-
-def _end_at(link: LinkState, member: object, port: str, moment: int) -> End | None:
-    """The end that ``port`` of ``member`` was at that moment, or is still called at."""
-    ends = [end for end in link.ends if end.member is member and end.port == port and end.since < moment]
-    return max(ends, key=lambda end: end.since, default=None)
 
 
 def _pair_entries(found: Requests) -> None:
@@ -141,15 +131,6 @@ def _pair_by_number(found: Requests, callback: Callback) -> None:
             return
 
 
-def changes_between(runtime: ObservedRuntime, begin: int, end: int) -> Iterator[Operation]:
-    """Operations between these events that stop or remove components, undo connections, or break or mend them."""
-    return (
-        o
-        for o in runtime.interactions.changes
-        if (o.step.undoes or isinstance(o.step, s.Mend)) and o.overlaps(begin, end)
-    )
-
-
 def is_sound(runtime: ObservedRuntime, asked: Asked, until: int = NEVER) -> bool:
     """Was everything in order from the request until that event: one server, all operational and attached in time, nothing broken?"""
     call, link = asked.call, asked.call.link
@@ -167,15 +148,3 @@ def fails(end: End) -> bool:
     plan = member.declaration.plan.get("method", ())
     codes = [a.results[-1] for a in plan if isinstance(a, s.Answer) and a.results and a.exception is None]
     return member.raises("method") or any(code != "ok" for code in codes)
-
-
-def overdue_since(runtime: ObservedRuntime, member: Member, since: Event) -> int:
-    """The event at which an entry of a method of ``member`` had been waited for in vain, with all patience, after the event
-    ``since``; 0 if there is none.
-    """
-    gates = {a.gate for a in member.declaration.plan.get("method", ()) if isinstance(a, s.HoldAtGate)}
-    for wait in runtime.interactions.waits:
-        is_for_it = isinstance(wait.step, s.ReachGate) and wait.step.gate in gates
-        if is_for_it and wait.timeout.n > since.n and waited_for(runtime, wait.timeout, since.t):
-            return wait.timeout.n
-    return 0

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
-from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS, REQUEST, REQUEST_RESPONSE, named_interfaces
+from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS, REQUEST, REQUEST_RESPONSE
 from ucm_cts.adapters.contract.trace import Raise, Return
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.designation import designation
-from ucm_cts.reference_models.model.links import End, LinkState, element_names
+from ucm_cts.reference_models.model.extended_links import changes_between, fits
+from ucm_cts.reference_models.model.links import End, LinkState
 from ucm_cts.reference_models.model.messages import CODES, OK, settling_time
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
-from ucm_cts.reference_models.model.requests import changes_between, fails
-from ucm_cts.reference_models.model.runtime import Member, lane
+from ucm_cts.reference_models.model.requests import fails
+from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _ONE_SERVER, _EITHER_KIND = "R-10.4.1.1-07", "R-10.4.1.1-30"
@@ -37,23 +38,8 @@ def request_connector(
         yield _refused(check, _TYPES if others else _SUPPORTED, step, end, "the connector is made")
     elif isinstance(step, s.Attach) and link is not None and link.connector == REQUEST_RESPONSE:
         member = runtime.members.get(step.id)
-        if member is not None and not member.suspended and _fits(runtime, member, step, link):
+        if member is not None and not member.suspended and fits(runtime, member, step, link):
             yield from _attached(check, runtime, link, step, end)
-
-
-def _fits(runtime: ObservedRuntime, member: Member, step: s.Attach, link: LinkState) -> bool:
-    """Has the component the port elements of that connector port, with the interfaces of the connection, and are they free?"""
-    kind = CONNECTOR_PORTS.get(step.role)
-    if kind is None or kind.connector != link.connector:
-        return False
-    due = named_interfaces("", runtime.scenario.types[link.interface])
-    names = element_names(member.declaration, step.port, kind)
-    interfaces = runtime.scenario.interfaces
-    return len(names) == len(kind.elements) and all(
-        interfaces.get(member.declaration.ports.get(name, "")) == due[f".{element.interface}"]
-        and (element.provided or len(member.live_connections(name)) <= 1)
-        for element, name in names.items()
-    )
 
 
 def _attached(check: Property, runtime: ObservedRuntime, link: LinkState, step: s.Attach, end: Result) -> Conclusions:

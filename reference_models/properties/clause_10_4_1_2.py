@@ -7,17 +7,12 @@ from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.platform_interfaces import REQUEST_DATA, RESPONSE_DATA
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.extended_links import changes_between, overdue_since
 from ucm_cts.reference_models.model.messages import OK
 from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Asked, Received, Requests
-from ucm_cts.reference_models.model.requests import (
-    all_requests,
-    changes_between,
-    fails,
-    is_sound,
-    overdue_since,
-)
+from ucm_cts.reference_models.model.requests import all_requests, fails, is_sound
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.services import is_left_hanging
 from ucm_cts.reference_models.properties.declaration import Property, property_at

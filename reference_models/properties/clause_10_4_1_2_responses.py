@@ -12,11 +12,12 @@ from ucm_cts.adapters.contract.trace import Return
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import executions as ex
+from ucm_cts.reference_models.model.extended_links import overdue_since
 from ucm_cts.reference_models.model.messages import INTERNAL_ERROR, OK
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Requests
-from ucm_cts.reference_models.model.requests import all_requests, is_sound, overdue_since
+from ucm_cts.reference_models.model.requests import all_requests, is_sound
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 

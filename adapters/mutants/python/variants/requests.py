@@ -40,7 +40,7 @@ def takes_ends_of_one_kind(self: Link, end: End) -> bool:
 class returns_when_the_server_did(Link):
     """The request of an asynchronous client comes back when the server's method has."""
 
-    def _post(self, end: End, work: Callable[[], None]) -> None:
+    def _post(self, end: End, work: Callable[[], object]) -> None:
         if end.kind.side == "server":
             try:
                 work()
@@ -73,11 +73,11 @@ class has_numbers_of_its_own_for_servers(Link):
 class calls_back_on_threads_of_their_own(Link):
     """Responses come on threads of their own, the later ones first where they can."""
 
-    def _post(self, end: End, work: Callable[[], None]) -> None:
+    def _post(self, end: End, work: Callable[[], object]) -> None:
         if end.kind.side == "server":
             super()._post(end, work)
             return
-        waiting: list[Callable[[], None]] = self.__dict__.setdefault("waiting", [])
+        waiting: list[Callable[[], object]] = self.__dict__.setdefault("waiting", [])
         waiting.append(work)
         timer = threading.Timer(0.02, self._call_back_last)
         timer.daemon = True
