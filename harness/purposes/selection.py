@@ -15,6 +15,7 @@ from ucm_cts.harness.purposes.derived.messages import message_purposes
 from ucm_cts.harness.purposes.derived.request_response import request_purposes
 from ucm_cts.harness.purposes.derived.schedules import crowd_purposes, overlap_purposes
 from ucm_cts.harness.purposes.derived.services import service_purposes
+from ucm_cts.harness.purposes.derived.shared_data import shared_data_purposes
 from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.provocations.boundaries import boundary_purposes
@@ -38,7 +39,7 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
 )
 """Where the purposes of profile core come from, beside scripts, dimensions and those of data types."""
 
-_EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (request_purposes,)
+_EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (request_purposes, shared_data_purposes)
 """Where those of profile extensions come from."""
 
 _DIMENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (

@@ -9,12 +9,13 @@ from ucm_cts.reference_models.model.interactions import Interactions, NoInteract
 from ucm_cts.reference_models.model.request_events import Requests
 from ucm_cts.reference_models.model.runtime import Runtime
 from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
+from ucm_cts.reference_models.model.shared_data_events import SharedData
 
 
 class ObservedRuntime(Runtime):
     """A runtime with what bodies execute and how they interact, recorded if the scenario is ``interacting``: if port elements
     have interfaces or components policies. ``service_calls`` and ``undisturbed`` are what the functions of services
-    with these names have found, ``requests`` what ``all_requests`` has, ``is_over`` says that no event follows.
+    with these names have found, ``requests`` and ``shared_data`` what ``all_requests`` and ``all_shared_data`` have, ``is_over`` says that no event follows.
     """
 
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
@@ -27,6 +28,7 @@ class ObservedRuntime(Runtime):
         self.interactions = Interactions(self) if interacting else _NO_INTERACTIONS
         self.service_calls: list[ServiceCall] | None = None
         self.requests: list[Requests] | None = None
+        self.shared_data: list[SharedData] | None = None
         self.undisturbed: list[tuple[ServiceCall, Trouble]] | None = None
         self.is_over = False
 

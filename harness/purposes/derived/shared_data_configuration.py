@@ -1,0 +1,288 @@
+"""Builds scenarios of shared data: connections, writers and readers, and what they do one after the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Final, Literal
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import AnyType, Datum, Integer
+from ucm_cts.adapters.contract.platform_interfaces import (
+    CANCEL,
+    FREEZE,
+    NOTIFY,
+    PUBLISH,
+    READ,
+    RELEASE,
+    SHARED,
+    SHARED_DATA,
+    WRITE,
+    named_interfaces,
+)
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
+
+ELSEWHERE = "elsewhere"
+"""Another container than the manager."""
+
+INSIDE = "inside"
+"""A gate that is closed until it is opened."""
+
+_TYPES = "shared"
+_OUT, _IN = "set", "get"
+"""The ports of writers and of readers."""
+
+_ORDERS: Final = {PUBLISH: 11, CANCEL: 12, FREEZE: 13, RELEASE: 14, READ: 15}
+"""What a component is called with to call that method."""
+
+_FIRST_WRITE = 100
+"""To write its first value, a writer is called with this number, and with following ones for following values."""
+
+_SETTLING = 600
+"""Milliseconds after which a connector knows that it was broken or mended, unless the vendor declares more."""
+
+
+@dataclass
+class _Part:
+    """A component under construction."""
+
+    place: str
+    policies: tuple[Policy, ...]
+    calls: list[Action] = field(default_factory=list)
+    entered: list[Action] = field(default_factory=list)
+    held: bool = False
+    provides: list[str] = field(default_factory=lambda: ["in.api"])
+    requires: list[str] = field(default_factory=list)
+    ports: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass
+class Configuration:
+    """A scenario under construction. Writers and readers have numbers, from 0, in the order in which they were added.
+
+    ``of``, ``values``: the type that is shared, and what is written, one after the other; without values they are numbers.
+    ``patience``: that of the scenario.
+    """
+
+    of: AnyType = field(default_factory=lambda: Integer("LONG"))
+    values: tuple[Datum, ...] = ()
+    patience: int = 2000
+    steps: list[Step] = field(default_factory=list)
+    parts: dict[str, _Part] = field(default_factory=dict)
+    writers: list[str] = field(default_factory=list)
+    readers: list[str] = field(default_factory=list)
+    told: list[int] = field(default_factory=list)
+    written: int = 0
+    link: str = ""
+    is_running: bool = False
+
+    # the configuration
+
+    def connection(self, name: str = "first") -> Configuration:
+        """A further connection, which writers and readers that follow belong to."""
+        self.link = name
+        self.steps.append(s.Link(SHARED_DATA, _TYPES, name))
+        return self
+
+    def container(self) -> Configuration:
+        """Another container, ``ELSEWHERE``."""
+        self.steps.append(s.CreateContainer(ELSEWHERE))
+        return self
+
+    def writer(self, place: str = s.MANAGER) -> Configuration:
+        """A writer."""
+        name = f"writer {len(self.writers)}"
+        self._component(name, place)
+        self._port(name, "sd_writer", _OUT, {"writer_p": ("data_writer", False)})
+        self.writers.append(name)
+        self.parts[name].calls += [self._call(f"{_OUT}.writer_p", method) for method in (PUBLISH, CANCEL)]
+        return self
+
+    def reader(
+        self,
+        place: str = s.MANAGER,
+        policies: tuple[Policy, ...] = (),
+        of_writer: int | None = None,
+        reads_inside: bool = False,
+        held: bool = False,
+    ) -> Configuration:
+        """A reader, or a further port of a writer. ``reads_inside``: it reads in each notification, too; ``held``: it is held inside
+        ``exchange``, after what it does there.
+        """
+        number = len(self.readers)
+        name = f"reader {number}" if of_writer is None else self.writers[of_writer]
+        if of_writer is None:
+            self._component(name, place, policies)
+        elements = {"reader_p": ("data_reader", False), "notification_p": ("data_notification", True)}
+        self._port(name, "sd_reader", _IN, elements)
+        self.readers.append(name)
+        self.told.append(0)
+        part = self.parts[name]
+        part.held = held
+        part.calls += [self._call(f"{_IN}.reader_p", method) for method in (FREEZE, RELEASE, READ)]
+        reads: list[Action] = [s.CallMethod(f"{_IN}.reader_p", READ)] if reads_inside else []
+        part.entered += [*reads, s.HoldAtGate(self._gate(number)), s.Answer(NOTIFY, ())]
+        return self
+
+    # what happens
+
+    def start(self, *places: str) -> Configuration:
+        """Start all, or these containers; the first time gates open that bodies only pass."""
+        if not self.is_running:
+            self.steps += [s.OpenGate(self._gate(number)) for number in range(len(self.readers))]
+        self.is_running = True
+        self.steps += map(s.Start, places or self._places())
+        return self
+
+    def stop(self, *places: str) -> Configuration:
+        """Stop all, or these containers."""
+        self.steps += map(s.Stop, places or reversed(self._places()))
+        return self
+
+    def write(self, writer: int = 0, times: int = 1) -> Configuration:
+        """A writer sets a value, several times another one."""
+        name = self.writers[writer]
+        for _ in range(times):
+            value = self.values[self.written] if self.values else 1000 * (writer + 1) + self.written
+            order = _FIRST_WRITE + self.written
+            self.parts[name].calls.append(s.CallMethod(f"{_OUT}.writer_p", WRITE, (value,), given=order))
+            self.written += 1
+            self.steps.append(s.Invoke(f"tell {name}", order))
+        return self
+
+    def publish(self, writer: int = 0) -> Configuration:
+        """A writer publishes."""
+        return self._order(self.writers[writer], PUBLISH)
+
+    def cancel(self, writer: int = 0) -> Configuration:
+        """A writer cancels."""
+        return self._order(self.writers[writer], CANCEL)
+
+    def update(self, writer: int = 0, but: tuple[int, ...] = (), of: tuple[int, ...] | None = None) -> Configuration:
+        """A writer sets a value and publishes it; wait until all readers are told, or those ``of``, ``but`` some of them."""
+        self.write(writer).publish(writer)
+        waiting = range(len(self.readers)) if of is None else of
+        return self.await_told(*(reader for reader in waiting if reader not in but))
+
+    def read(self, *readers: int) -> Configuration:
+        """These readers read, or all."""
+        for reader in readers or range(len(self.readers)):
+            self._order(self.readers[reader], READ)
+        return self
+
+    def freeze(self, *readers: int) -> Configuration:
+        """These readers freeze the value, or all."""
+        for reader in readers or range(len(self.readers)):
+            self._order(self.readers[reader], FREEZE)
+        return self
+
+    def release(self, *readers: int) -> Configuration:
+        """These readers release it, or all."""
+        for reader in readers or range(len(self.readers)):
+            self._order(self.readers[reader], RELEASE)
+        return self
+
+    def await_told(self, *readers: int, times: int = 1) -> Configuration:
+        """Wait until each of these readers has been notified so many times more."""
+        for reader in readers:
+            self.told[reader] += times
+            self.steps.append(s.ReachGate(self._gate(reader), total=self.told[reader]))
+        return self
+
+    def listen(self, reader: int) -> Configuration:
+        """Wait for a further notification that may come or not."""
+        self.steps.append(s.ReachGate(self._gate(reader), total=self.told[reader] + 1))
+        return self
+
+    def apart(self, *orders: tuple[Literal["write", "publish", "read"], int]) -> Configuration:
+        """Writers or readers do this at once, each on a thread of its own; wait for all of them."""
+        threads = []
+        for what, number in orders:
+            name = (self.readers if what == "read" else self.writers)[number]
+            threads.append(f"{what} {number}")
+            order = _ORDERS[READ if what == "read" else PUBLISH]
+            self.steps.append(s.Invoke(f"tell {name}", order, thread=threads[-1]))
+        self.steps += map(s.Join, threads)
+        return self
+
+    def enter(self, reader: int) -> Configuration:
+        """A reader that is held inside is called, on a thread of its own."""
+        name = self.readers[reader]
+        self.steps += [s.Invoke(f"tell {name}", _ORDERS[READ], thread=f"inside {name}"), s.ReachGate(INSIDE, total=1)]
+        return self
+
+    def leave(self, reader: int) -> Configuration:
+        """It is let go."""
+        self.steps += [s.OpenGate(INSIDE), s.Join(f"inside {self.readers[reader]}")]
+        return self
+
+    def pause(self, milliseconds: int) -> Configuration:
+        """Let time pass."""
+        self.steps.append(s.Pause(milliseconds))
+        return self
+
+    def break_(self, where: Literal["transport", "inside"]) -> Configuration:
+        """Break the connection, and let the connector learn of it."""
+        self.steps += [s.Break(self.link, where), s.Pause(_SETTLING)]
+        return self
+
+    def mend(self) -> Configuration:
+        """Mend it, and let the connector learn of it."""
+        self.steps += [s.Mend(self.link), s.Pause(_SETTLING)]
+        return self
+
+    def remove(self, reader: int) -> Configuration:
+        """Detach and remove a reader; all are stopped."""
+        name = self.readers[reader]
+        self.steps += [s.Detach(self.link, name, _IN), s.RemoveComponent(name)]
+        return self
+
+    def end(self) -> Scenario:
+        """The scenario: everything is stopped."""
+        stops = [s.Stop(place) for place in reversed(self._places())]
+        types = {SHARED: self.of}
+        return Scenario(
+            {name: self._declared(part) for name, part in self.parts.items()},
+            (*self.steps, *stops, s.GetComponents()),
+            patience=self.patience,
+            interfaces=named_interfaces(_TYPES, types),
+            types={_TYPES: types},
+        )
+
+    def _declared(self, part: _Part) -> Declaration:
+        held = [s.HoldAtGate(INSIDE)] if part.held else []
+        plan = {"exchange": (*part.calls, *held), **({"method": tuple(part.entered)} if part.entered else {})}
+        return Declaration(
+            tuple(part.provides),
+            tuple(part.requires),
+            plan=plan,  # type: ignore[arg-type]
+            policies=part.policies,
+            ports=part.ports,
+        )
+
+    def _component(self, name: str, place: str, policies: tuple[Policy, ...] = ()) -> None:
+        """A component with a port by which the test calls it."""
+        self.parts[name] = _Part(place, policies)
+        self.steps += [s.AddComponent(name, place), s.GetPortElement(name, "in.api", f"tell {name}", place)]
+
+    def _port(self, name: str, role: str, port: str, elements: dict[str, tuple[str, bool]]) -> None:
+        part = self.parts[name]
+        for element, (interface, provided) in elements.items():
+            (part.provides if provided else part.requires).append(f"{port}.{element}")
+            part.ports[f"{port}.{element}"] = f"{_TYPES}.{interface}"
+        self.steps.append(s.Attach(self.link, role, name, port, part.place))  # type: ignore[arg-type]
+
+    def _order(self, name: str, method: str) -> Configuration:
+        self.steps.append(s.Invoke(f"tell {name}", _ORDERS[method]))
+        return self
+
+    def _places(self) -> list[str]:
+        has_another = any(isinstance(step, s.CreateContainer) for step in self.steps)
+        return [ELSEWHERE, s.MANAGER] if has_another else [s.MANAGER]
+
+    @staticmethod
+    def _call(port: str, method: str) -> Action:
+        return s.CallMethod(port, method, given=_ORDERS[method])
+
+    @staticmethod
+    def _gate(reader: int) -> str:
+        return f"told {reader}"
