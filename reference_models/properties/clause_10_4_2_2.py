@@ -28,7 +28,7 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 
 _WRITERS, _READERS, _WHEN, _TWO_STEPS = "R-10.4.2-01", "R-10.4.2-02", "R-10.4.2-03", "R-10.4.2-04"
 _AGREE, _WHOLE, _APART, _TYPES = "R-10.4.2-05", "R-10.4.2-06", "R-10.4.2-07", "R-10.4.2-08"
-_CODES, _BROKEN = "R-10.4.2.1-22", "R-10.4.2.1-23"
+_SKIPPED, _CODES, _BROKEN = "R-10.4-04", "R-10.4.2.1-22", "R-10.4.2.1-23"
 _CURRENT, _LEAVES, _NOTIFIED = "R-10.4.2.2-06", "R-10.4.2.2-07", "R-10.4.2.2-08"
 _FREEZES, _ONE_READER, _RELEASES, _FREEZES_AGAIN = (f"R-10.4.2.2-{n}" for n in ("09", "10", "12", "13"))
 _WRITES, _REPLACES, _SENDS, _CANCELS, _NOTHING = (f"R-10.4.2.2-{n}" for n in range(15, 20))
@@ -61,6 +61,12 @@ class Reading:
         return [one for one in self.found.publications if one.since < self.call.over]
 
     @property
+    def unread(self) -> list[Publication]:
+        """The publications since the last read of this reader."""
+        since = max((read.request.n for read in self.reader.reads if read.over < self.call.request.n), default=0)
+        return [one for one in self.published if one.since > since]
+
+    @property
     def previous(self) -> MethodCall | None:
         """The read of this reader before it, if nothing was published since."""
         reads = [read for read in self.reader.reads if read.over < self.call.request.n]
@@ -80,7 +86,8 @@ def _readings(runtime: ObservedRuntime, found: SharedData) -> list[Reading]:
 
 @property_at(
     "closed",
-    *(_CURRENT, _WRITERS, _READERS, _WHEN, _TWO_STEPS, _WHOLE, _APART, _TYPES, _CODES, _BROKEN, _LEAVES, _NOTIFIED),
+    *(_CURRENT, _WRITERS, _READERS, _WHEN, _TWO_STEPS, _WHOLE, _APART, _TYPES),
+    *(_SKIPPED, _CODES, _BROKEN, _LEAVES, _NOTIFIED),
     *_OF_FREEZING,
     *_OF_WRITING,
     timed=True,
@@ -176,6 +183,8 @@ def _kept_of_others(check: Property, runtime: ObservedRuntime, one: Reading, cur
     if one.previous is not None and given(one.previous) == one.value:
         yield check.kept(_WHEN)
         yield check.kept(_LEAVES)
+    if len(one.unread) > 1:
+        yield check.kept(_SKIPPED)
     elsewhere = [p for other in all_shared_data(runtime) if other is not found for p in other.publications]
     if any(p.over < read.request.n for p in elsewhere):
         yield check.kept(_APART)
@@ -310,6 +319,7 @@ def _stale(check: Property, one: Reading, current: Publication | None, scope: li
         (bool(current.cancelled), _WORKS_AGAIN),
         (any(written(o) is not None or o.request.method == CANCEL for o in current.crossed), _UNDISTURBED),
         (not found.types_are_plain, _TYPES),
+        (any(one.value in p.values for p in one.unread), _SKIPPED),
         (len(of_writer) < len(one.published) and not _any_read(read_by_all, of_writer), _WRITERS),
         (bool(read_by_all) and not own and not is_new, _READERS),
         (was_told(one.reader, current, read), _NOTIFIED),

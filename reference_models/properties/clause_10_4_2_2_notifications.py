@@ -17,12 +17,12 @@ from ucm_cts.reference_models.model.shared_data_events import Publication, Reade
 from ucm_cts.reference_models.model.shared_data_views import state_at
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_APART = "R-10.4.2-07"
+_TWO_STEPS, _APART = "R-10.4.2-04", "R-10.4.2-07"
 _NOTIFIES, _NO_UPDATE, _PHASES, _PROTECTED = (f"R-10.4.2.2-{n}" for n in ("02", "03", "04", "05"))
 _NOTHING = "R-10.4.2.2-19"
 
 
-@property_at("closed", _NO_UPDATE, _NOTHING, _APART, feature="extended")
+@property_at("closed", _NO_UPDATE, _NOTHING, _TWO_STEPS, _APART, feature="extended")
 def notified_of_updates(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A reader is notified once for each publication at most, and of nothing else."""
     everything = all_shared_data(runtime)
@@ -40,7 +40,8 @@ def notified_of_updates(check: Property, runtime: ObservedRuntime) -> Conclusion
                 void = next((v for v in found.voids if last is v.call), None)
                 near = any(p.since < moment and (last is None or p.since > last.request.n) for p in elsewhere)
                 cancelled = void is not None and void.source == "cancelled"
-                requirement = _NOTHING if cancelled else _APART if near else _NO_UPDATE
+                at_once = sent and last is sent[-1].call and len(sent[-1].writes) > 1
+                requirement = _NOTHING if cancelled else _APART if near else _TWO_STEPS if at_once else _NO_UPDATE
                 yield check.fail(
                     "no update",
                     expected=f"'{lane(*notice.enter.body)}' is notified at most once for each of {len(sent)} publications",
