@@ -74,10 +74,6 @@ def view_of(runtime: ObservedRuntime, found: SharedData, reader: Reader, read: M
     free = _free(runtime, found, reader, read)
     if state == "unclear" and session is not None:
         return _both(free, _pinned(runtime, found, reader, session, read))
-    if runtime.ics.reading("freeze-scope") == "connection":
-        for other in found.readers:
-            for one in (one for one in other.sessions if other is not reader and one.freeze.request.n < read.over):
-                free = _both(free, _free(runtime, found, reader, one.freeze))
     return free
 
 
@@ -85,15 +81,20 @@ def has_arrived(
     runtime: ObservedRuntime, found: SharedData, reader: Reader, one: Publication, call: MethodCall
 ) -> bool:
     """Has the reader ``one`` for certain when it makes ``call``?"""
+    return one.is_sure and (
+        was_told(reader, one, call)
+        or is_due(runtime, one, call)
+        or any(_identified(found, earlier) is one for earlier in reader.reads if earlier.over < call.request.n)
+    )
+
+
+def is_due(runtime: ObservedRuntime, one: Publication, call: MethodCall) -> bool:
+    """Should all readers have ``one`` when ``call`` is made, told or not?"""
     reply = one.call.reply
-    if reply is None or not one.is_sure or one.over > call.request.n:
+    if reply is None or one.over > call.request.n:
         return False
     patience = runtime.scenario.patience * _NANOSECONDS
-    if runtime.ics.reading("publication") == "before-return" or call.request.t - reply.t >= patience:
-        return True
-    return was_told(reader, one, call) or any(
-        _identified(found, earlier) is one for earlier in reader.reads if earlier.over < call.request.n
-    )
+    return runtime.ics.reading("publication") == "before-return" or call.request.t - reply.t >= patience
 
 
 def was_told(reader: Reader, one: Publication, call: MethodCall) -> bool:
@@ -117,7 +118,19 @@ def _identified(found: SharedData, read: MethodCall) -> Publication | None:
 
 
 def _free(runtime: ObservedRuntime, found: SharedData, reader: Reader, call: MethodCall) -> View:
-    """What it may read in ``call`` if it is not frozen, or would keep if that is a call of ``freeze_data``."""
+    """What it may read in ``call`` if it is not frozen, or would keep if that is a call of ``freeze_data``.
+
+    If a freeze holds the whole connection, what was current at freezes of others is permitted, too.
+    """
+    view = _unheld(runtime, found, reader, call)
+    if runtime.ics.reading("freeze-scope") == "connection":
+        others = [session for other in found.readers if other is not reader for session in other.sessions]
+        for freeze in (one.freeze for one in others if one.freeze.request.n < call.request.n):
+            view = _both(view, _free(runtime, found, reader, freeze))
+    return view
+
+
+def _unheld(runtime: ObservedRuntime, found: SharedData, reader: Reader, call: MethodCall) -> View:
     base = base_of(runtime, call)
     begun = [one for one in found.publications if one.since < call.over]
     arrived = [one for one in begun if one.since > base and has_arrived(runtime, found, reader, one, call)]

@@ -18,8 +18,8 @@ from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.services import is_left_hanging
 from ucm_cts.reference_models.model.shared_data import all_shared_data, is_disturbed
-from ucm_cts.reference_models.model.shared_data_events import Reader, SharedData, is_ok
-from ucm_cts.reference_models.model.shared_data_views import frozen_at, state_at
+from ucm_cts.reference_models.model.shared_data_events import Reader, Session, SharedData, is_ok
+from ucm_cts.reference_models.model.shared_data_views import state_at
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _WHEN, _TYPES = "R-10.4.2-03", "R-10.4.2-08"
@@ -175,7 +175,7 @@ def shared_data_calls_return(check: Property, runtime: ObservedRuntime) -> Concl
     """All methods of readers and writers come back, whoever is frozen, with a code and no exception."""
     for found in all_shared_data(runtime):
         for call in found.operations:
-            frozen = bool(frozen_at(found, call))
+            frozen = any(_is_frozen(session, call) for reader in found.readers for session in reader.sessions)
             yield from _returned(check, runtime, call, _NOT_BLOCKED if frozen else _WRITERS_METHODS)
             if frozen and call.reply is not None:
                 yield check.kept(_NOT_BLOCKED)
@@ -191,12 +191,18 @@ def shared_data_calls_return(check: Property, runtime: ObservedRuntime) -> Concl
                 yield check.kept(_WRITERS_METHODS)
 
 
+def _is_frozen(session: Session, call: MethodCall) -> bool:
+    """Was the reader frozen when the call was made?"""
+    begun = session.freeze.over < call.request.n
+    return begun and (session.released is None or session.released.request.n > call.request.n)
+
+
 def _returned(check: Property, runtime: ObservedRuntime, call: MethodCall, requirement: str) -> Conclusions:
     reply = call.reply
     if not call.ready or not call.prepared or call.broken:
         return
-    if reply is None and is_left_hanging(runtime, call.business.worker, call.request.n):
-        observed, at = "it did not", [call.request.n]
+    if is_left_hanging(runtime, call.business.worker, call.request.n, call.over):
+        observed, at = "it did not, within patience", [call.request.n]
     elif reply is not None and reply.failed and not is_disturbed(runtime, call):
         observed, at = "it raised an exception", [call.request.n, reply.n]
     else:

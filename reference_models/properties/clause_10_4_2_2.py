@@ -23,7 +23,7 @@ from ucm_cts.reference_models.model.shared_data_events import (
     is_ok,
     written,
 )
-from ucm_cts.reference_models.model.shared_data_views import State, View, frozen_at, state_at, view_of, was_told
+from ucm_cts.reference_models.model.shared_data_views import State, View, frozen_at, is_due, state_at, view_of, was_told
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _WRITERS, _READERS, _WHEN, _TWO_STEPS = "R-10.4.2-01", "R-10.4.2-02", "R-10.4.2-03", "R-10.4.2-04"
@@ -230,7 +230,7 @@ def _readings_taken(check: Property, runtime: ObservedRuntime, one: Reading) -> 
     if session is None:
         return
     if one.state == "unclear" and session.nested and session.unclear_since < one.call.request.n:
-        if value in view.kept and value not in view.fresh:
+        if value in view.kept and value not in view.fresh and not runtime.ics.permits("value-after-release", "next"):
             yield from takes(runtime, "nested-freeze", "counted")
         elif value in view.fresh and value not in view.kept:
             refused = not all(map(is_ok, session.nested))
@@ -255,7 +255,7 @@ def _other_value(check: Property, runtime: ObservedRuntime, one: Reading) -> Con
     if not writes:
         yield _unknown(check, runtime, one)
     elif not any(one.value in p.values for p in one.published):
-        yield _not_published(check, one, writes[-1])
+        yield from _not_published(check, one, writes[-1])
     elif one.state == "frozen" and one.session is not None:
         requirement = _FREEZES_AGAIN if one.session.nth > 1 else _FREEZES
         expected = f"gives {_values(one.view)}, which it kept when it was frozen"
@@ -266,7 +266,11 @@ def _other_value(check: Property, runtime: ObservedRuntime, one: Reading) -> Con
         is_held_up = scope and newest and scope[0].freeze.over < newest[0].since
         if is_held_up and (yield from takes(runtime, "freeze-scope", "connection")):
             return
-        yield _stale(check, one, newest[0] if newest else None, scope)
+        current = newest[0] if newest else None
+        if current is not None and one.previous is not None and given(one.previous) in current.values:
+            expected = f"gives {_values(one.view)} again"
+            yield _violate(check, _LEAVES, "read once", one, expected, _got(one))
+        yield _stale(check, runtime, one, current, scope)
 
 
 def _unknown(check: Property, runtime: ObservedRuntime, one: Reading) -> Finding:
@@ -278,29 +282,27 @@ def _unknown(check: Property, runtime: ObservedRuntime, one: Reading) -> Finding
     return _violate(check, requirement, "altered", one, "gives a value that was written", _got(one))
 
 
-def _not_published(check: Property, one: Reading, write: MethodCall) -> Finding:
-    later = [o for o in one.found.operations if o.caller is write.caller and write.over < o.request.n < one.call.over]
-    kinds = [o.request.method for o in later]
-    if later and later[0].request.method == CANCEL:
-        void = any(v.call in later for v in one.found.voids)
-        expected = "does not give what was cancelled"
-        return _violate(check, _NOTHING if void else _CANCELS, "cancelled", one, expected, _got(one))
-    if (
-        CANCEL in kinds
-        and kinds[0] not in (CANCEL,)
-        and all(written(o) is not None for o in later[: kinds.index(CANCEL)])
-    ):
-        return _violate(check, _CANCELS, "cancelled", one, "does not give what was cancelled", _got(one))
-    if later and written(later[0]) is not None and any(p.call in later for p in one.published):
-        return _violate(
-            check, _REPLACES, "replaced", one, "gives the value written last before publish_data", _got(one)
-        )
-    return _violate(
-        check, _WRITES, "unpublished", one, "gives what was published, not what was only written", _got(one)
-    )
+def _not_published(check: Property, one: Reading, write: MethodCall) -> Conclusions:
+    """It gave a value that was set, and then cancelled, replaced, or neither."""
+    found, newest = one.found, one.view.newest
+    later = [o for o in found.operations if o.caller is write.caller and write.over < o.request.n < one.call.over]
+    ended = next((o for o in later if written(o) is None), None)
+    if ended is not None and ended.request.method == CANCEL:
+        void = any(v.call in later and v.source == "cancelled" for v in found.voids)
+        for requirement in (_CANCELS, _NOTHING) if void else (_CANCELS,):
+            yield _violate(check, requirement, "cancelled", one, "does not give what was cancelled", _got(one))
+    elif newest and any(write in p.crossed for p in newest):
+        expected = f"gives {_values(one.view)}, which its own writer has set"
+        yield _violate(check, _UNDISTURBED, "of another writer", one, expected, _got(one))
+    elif ended is not None and written(later[0]) is not None:
+        yield _violate(check, _REPLACES, "replaced", one, "gives the value set last before publish_data", _got(one))
+    else:
+        yield _violate(check, _WRITES, "unpublished", one, "gives what was published, not what was only set", _got(one))
 
 
-def _stale(check: Property, one: Reading, current: Publication | None, scope: list[Session]) -> Finding:
+def _stale(
+    check: Property, runtime: ObservedRuntime, one: Reading, current: Publication | None, scope: list[Session]
+) -> Finding:
     """It gave what had been replaced by ``current``."""
     expected = f"gives {_values(one.view)}"
     if current is None:
@@ -308,21 +310,23 @@ def _stale(check: Property, one: Reading, current: Publication | None, scope: li
     found, read = one.found, one.call
     read_by_all = [r for reader in found.readers for r in reader.reads if is_ok(r) and r.over < read.request.n]
     own = [r for r in read_by_all if r in one.reader.reads]
+    others = [r for r in read_by_all if r not in one.reader.reads]
     of_writer = [p for p in one.published if p.writer is current.writer]
-    cancels = [o for o in found.operations if o.request.method == CANCEL and o.caller is current.call.caller]
+    later = [o for o in found.operations if o.caller is current.call.caller and o.request.n > current.over]
+    recalls = [o for o in later[:1] if o.request.method == CANCEL]
     is_new = not any(given(r) in current.values for r in read_by_all)
     reasons = (
-        (any(given(r) in current.values for r in own), _LEAVES),
+        (any(current.over < o.request.n < read.request.n for o in recalls), _NO_RECALL),
+        (any(given(r) in current.values for r in own), _CURRENT),
         (one.session is not None and one.session.freeze.over < current.since, _RELEASES),
         (any(session.freeze.over < current.since for session in scope), _ONE_READER),
-        (any(current.over < o.request.n < read.request.n for o in cancels), _NO_RECALL),
         (bool(current.cancelled), _WORKS_AGAIN),
         (any(written(o) is not None or o.request.method == CANCEL for o in current.crossed), _UNDISTURBED),
         (not found.types_are_plain, _TYPES),
         (any(one.value in p.values for p in one.unread), _SKIPPED),
         (len(of_writer) < len(one.published) and not _any_read(read_by_all, of_writer), _WRITERS),
-        (bool(read_by_all) and not own and not is_new, _READERS),
-        (was_told(one.reader, current, read), _NOTIFIED),
+        (any(given(r) in current.values for r in others), _READERS),
+        (was_told(one.reader, current, read) and not is_due(runtime, current, read), _NOTIFIED),
         (is_new, _SENDS),
     )
     requirement = next((reason for holds, reason in reasons if holds), _CURRENT)

@@ -44,6 +44,7 @@ _TYPES: dict[str, tuple[d.AnyType, d.Datum, d.Datum]] = {
 def shared_data_purposes() -> list[TestPurpose]:
     """Writers and readers, steps, freezes, notifications, types, faults, phases."""
     return [
+        _returning(),
         _participants(),
         _steps(),
         _cancelling(),
@@ -79,6 +80,18 @@ def _with(writers: int, readers: int, elsewhere: bool = False) -> Configuration:
     return made
 
 
+def _returning() -> TestPurpose:
+    """Readers and writers are called on threads of their own, as a call may not come back."""
+    made = _with(1, 2).start().update().apart(("read", 0)).apart(("read", 0), ("read", 1))
+    scenarios = [("read twice", made.end())]
+    made = _with(1, 2).start().update().freeze(0).write().apart(("publish", 0)).release(0).update(of=(1,))
+    scenarios.append(("published to a frozen reader", made.end()))
+    made = _with(1, 2).start().update().freeze(0, 1).write().apart(("publish", 0)).apart(("read", 0), ("read", 1))
+    scenarios.append(("published to frozen readers only", made.release(0, 1).end()))
+    text = "Readers read twice, and writers publish while readers are frozen."
+    return _purpose("returning", text, ".2-03 2-11 2-14", scenarios)
+
+
 def _participants() -> TestPurpose:
     """Each writer publishes, each reader reads, before and after a restart."""
     scenarios = []
@@ -103,7 +116,6 @@ def _steps() -> TestPurpose:
         made = _with(1, readers).start()
         made.update().read().write().read().write().read().publish().await_told(*range(readers)).read()
         made.write(times=3).publish().await_told(*range(readers)).read().update().read()
-        made.apart(("read", 0)).apart(("read", 0))
         scenarios.append((f"one writer, {readers} readers", made.end()))
     made = Configuration().connection().writer().reader(of_writer=0).reader().start()
     made.update().read().write().read().publish().await_told(0, 1).read()
@@ -156,7 +168,7 @@ def _freezing() -> TestPurpose:
         made = _with(1, readers).start().update().read().freeze(*frozen).read()
         for _ in range(2):
             made.update(but=frozen).read()
-        made.write().apart(("publish", 0)).read().write().cancel().publish().read().release(*frozen)
+        made.write().cancel().publish().read().release(*frozen)
         made.update(but=frozen).pause(_QUIET).read()
         scenarios.append((f"{len(frozen)} of {readers} readers frozen", made.end()))
     made = _with(1, 2).start().update().read()
@@ -193,10 +205,10 @@ def _writers() -> TestPurpose:
     """Several writers set, publish and cancel in turns, and at once."""
     scenarios = []
     made = _with(2, 2).start().update(0).update(1).read()
-    made.write(0).write(1).publish(0).pause(_QUIET).read().publish(1).pause(_QUIET).read()
+    made.write(0).write(1).publish(0).listen(0).listen(1).read().publish(1).pause(_QUIET).read()
     scenarios.append(("both set, then both publish", made.end()))
     made = _with(2, 2).start().update(0).update(1).read()
-    made.write(0).cancel(1).publish(0).pause(_QUIET).read().update(1).read()
+    made.write(0).cancel(1).publish(0).listen(0).listen(1).read().update(1).read()
     scenarios.append(("one cancels what it has not set", made.end()))
     made = _with(2, 2).start().update(0).write(1).cancel(1).publish(0).publish(1).pause(_QUIET).read().update(1).read()
     scenarios.append(("one cancels, both publish", made.end()))
