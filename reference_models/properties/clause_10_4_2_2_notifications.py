@@ -13,7 +13,7 @@ from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodC
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.model.shared_data import all_shared_data, changes
-from ucm_cts.reference_models.model.shared_data_events import Publication, Reader, Session, SharedData
+from ucm_cts.reference_models.model.shared_data_events import Publication, Reader, Session, SharedData, is_ok
 from ucm_cts.reference_models.model.shared_data_views import state_at
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -150,6 +150,38 @@ def _is_free(reader: Reader, one: Publication, until: int) -> bool:
 def _was_free(reader: Reader, one: Publication) -> bool:
     """Was the reader not frozen when it was published?"""
     return state_at(reader, one.call)[0] == "free"
+
+
+@property_at("closed", _NO_UPDATE, _TWO_STEPS, timed=True, feature="extended")
+def published_twice(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """Does a second publication without a new value notify again?"""
+    for found in all_shared_data(runtime):
+        repeated = [p for p in found.publications if p.source == "repeated" and is_ok(p.call)]
+        writers = {id(p.writer) for p in found.publications}
+        for reader in found.readers if len(repeated) == 1 and len(writers) == 1 and not found.link.was_broken else ():
+            one, others = repeated[0], [p for p in found.publications if p is not repeated[0]]
+            if reader.sessions or not all(p.is_sure and _is_there(reader, p) for p in others):
+                continue
+            following = min((p.since for p in others if p.since > one.since), default=NEVER)
+            before = [p for p in others if p.since < one.since]
+            if following == NEVER or any(reader.heard_of.get(id(p), NEVER) > one.since for p in before):
+                continue
+            again = sum(n.enter.n > one.since for n in reader.notices) - (len(others) - len(before))
+            reply = others[-1].call.reply
+            is_over = reply is not None and bool(overdue_since(runtime, reader.end.member, reply))
+            if again != 1 and not (again == 0 and is_over):
+                continue
+            if _is_changed(runtime, before[0].since if before else one.since, following):
+                continue
+            if not (yield from takes(runtime, "publish-twice", "again" if again else "nothing")):
+                expected = f"'{reader.end.member.lane}' is told of a second publication as declared"
+                yield check.fail(
+                    "twice",
+                    expected=f"{expected}: publish-twice = {runtime.ics.reading('publish-twice')}",
+                    observed="it was notified" if again else "it was not notified",
+                    at=(one.since,),
+                    requirement=_NO_UPDATE if again else _TWO_STEPS,
+                )
 
 
 @property_at("closed", _NOTIFIES, timed=True, feature="extended")

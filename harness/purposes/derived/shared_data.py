@@ -121,8 +121,9 @@ def _steps() -> TestPurpose:
     made.update().read().write().read().publish().await_told(0, 1).read()
     made.write(times=3).read().publish().await_told(0, 1).read()
     scenarios.append(("a reader is a port of the writer", made.end()))
-    made = _with(1, 2).start()
-    made.update().read().publish().pause(_QUIET).read().update().read()
+    made = _with(1, 2)
+    made.patience = _BRIEF
+    made.start().update().read().publish().pause(_QUIET).read().update().listen(0).listen(1).read()
     scenarios.append(("published twice", made.end()))
     text = "A writer sets values, and publishes the last one, or none."
     return _purpose("steps", text, ".2-04 2-15 2-16 2-17 2-03 2-06", scenarios)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 
 from ucm_cts.adapters.contract.data_types import AnyType, Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import SHARED, Base, breaks
+from ucm_cts.adapters.mutants.python.variants.shared_data import publishes_again, readers_disagree
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, INTERNAL_ERROR, OK, AnyLink
 from ucm_cts.adapters.reference.python.port_links import End
 from ucm_cts.adapters.reference.python.shared_data import Published, SharedDataLink
@@ -209,28 +209,18 @@ class cancels_for_all(Link):
 
 
 @breaks("R-10.4.2-05", clauses=SHARED, readings={"concurrent-publications": "agree", "pending-value": "per-writer"})
-class disagrees_on_publications_at_once(Link):
+class disagrees_on_publications_at_once(readers_disagree):
     """Of two publications at once one reader keeps the first and the others the second, against what is declared."""
 
-    ongoing = 0
-    first: Published | None = None
 
-    def publish(self, end: End) -> str:
-        self.ongoing += 1
-        try:
-            if len(self.pending) > 1:
-                time.sleep(0.05)
-            return super().publish(end)
-        finally:
-            self.ongoing -= 1
-            self.first = self.first if self.ongoing else None
+@breaks("R-10.4.2.2-03", clauses=SHARED, readings={"publish-twice": "nothing"})
+class publishes_again_against_what_is_declared(publishes_again):
+    """A second publication without a new value notifies the readers again, against what is declared."""
 
-    def _send(self, value: Published) -> None:
-        super()._send(value)
-        if self.first is not None:
-            self._update([one for one in self.ends if one.kind.side == "reader"][-1], self.first)
-        elif self.ongoing > 1:
-            self.first = value
+
+@breaks("R-10.4.2-04", clauses=SHARED, readings={"publish-twice": "again"})
+class publishes_once_against_what_is_declared(Link):
+    """A second publication without a new value does nothing, against what is declared."""
 
 
 @alters("_copied", "R-10.4.2-06", clauses=SHARED, also=("R-10.4.2.2-15", "R-10.4.2.2-09", "R-10.4.2-08"))

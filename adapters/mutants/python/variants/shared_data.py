@@ -116,15 +116,29 @@ class publishes_in_a_while(Later):
     """Readers have a value, and are notified of it, some milliseconds after it was published."""
 
 
-@variant_of(*SHARED, readings={"concurrent-publications": "free"})
-class readers_disagree(Later):
-    """Of two publications at once each reader ends with one or the other."""
+@variant_of(*SHARED, readings={"concurrent-publications": "free", "pending-value": "per-writer"})
+class readers_disagree(Link):
+    """Of two publications at once the last reader keeps the first one, and the others have the second one."""
+
+    ongoing = 0
+    first: Published | None = None
 
     def publish(self, end: End) -> str:
-        others = [one for one in self.pending if one is not end]
-        if others and threading.current_thread() is not threading.main_thread():
-            threading.Event().wait(0.01)
-        return super().publish(end)
+        self.ongoing += 1
+        try:
+            if len(self.pending) > 1:
+                threading.Event().wait(0.05)
+            return super().publish(end)
+        finally:
+            self.ongoing -= 1
+            self.first = self.first if self.ongoing else None
+
+    def _send(self, value: Published) -> None:
+        super()._send(value)
+        if self.first is not None:
+            self._update([one for one in self.ends if one.kind.side == "reader"][-1], self.first)
+        elif self.ongoing > 1:
+            self.first = value
 
 
 @variant_of(*SHARED, readings={"notifications": "coalesced"})
