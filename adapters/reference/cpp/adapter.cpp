@@ -149,7 +149,9 @@ class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
                                                                  {"rr_asynchronous_client",
                                                                   lwucm::Role::rr_asynchronous_client},
                                                                  {"rr_asynchronous_server",
-                                                                  lwucm::Role::rr_asynchronous_server}};
+                                                                  lwucm::Role::rr_asynchronous_server},
+                                                                 {"sd_reader", lwucm::Role::sd_reader},
+                                                                 {"sd_writer", lwucm::Role::sd_writer}};
         translate([&] {
             of_link(link).attach(roles.at(role), shared(container), static_cast<lwucm::componentId>(id), port);
         });

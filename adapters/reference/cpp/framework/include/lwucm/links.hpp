@@ -1,4 +1,4 @@
-// Connections with connectors (9.5.5.4, 10.1.5, 10.1.6, 10.4.1).
+// Connections with connectors (9.5.5.4, 10.1.5, 10.1.6, 10.4).
 #ifndef LWUCM_LINKS_HPP
 #define LWUCM_LINKS_HPP
 
@@ -15,8 +15,9 @@ namespace lwucm {
 extern const char* const SIMPLE_SERVICE_CONNECTOR;
 extern const char* const SIMPLE_MESSAGE_CONNECTOR;
 extern const char* const REQUEST_RESPONSE_CONNECTOR;
+extern const char* const SHARED_DATA_CONNECTOR;
 
-/// What a port element is attached as; the last four are the connector ports of 10.4.1, for a port with all its elements.
+/// What a port element is attached as; the last six are the connector ports of 10.4, for a port with all its elements.
 enum class Role {
     client,
     server,
@@ -25,7 +26,9 @@ enum class Role {
     rr_synchronous_client,
     rr_synchronous_server,
     rr_asynchronous_client,
-    rr_asynchronous_server
+    rr_asynchronous_server,
+    sd_reader,
+    sd_writer
 };
 
 /// The data types that a connector is bound to, by template parameter.
@@ -43,9 +46,9 @@ class Link {
   public:
     virtual ~Link() = default;
 
-    /// Makes a port element, or a port of 10.4.1, an end. NOT_FOUND if the container has no such component; BAD_PARAMETER if the connector
-    /// has no such role, or the component no such port element with the interface of the link; UCM_ERROR if the
-    /// container is started, the required port element is connected already, or the service has its server.
+    /// Makes a port element, or a port of 10.4, an end. NOT_FOUND if the container has no such component; BAD_PARAMETER if
+    /// the connector has no such role, or the component no such port element with the interface of the link; UCM_ERROR
+    /// if the container is started, the required port element is connected already, or the service has its server.
     virtual void attach(Role role, const std::shared_ptr<Container>& container, componentId component,
                         const std::string& port) = 0;
 

@@ -10,6 +10,7 @@ namespace lwucm {
 const char* const SIMPLE_SERVICE_CONNECTOR = "simple_service_connector";
 const char* const SIMPLE_MESSAGE_CONNECTOR = "simple_message_connector";
 const char* const REQUEST_RESPONSE_CONNECTOR = "request-response_connector";
+const char* const SHARED_DATA_CONNECTOR = "shared-data_connector";
 
 std::shared_ptr<Runtime> create_runtime(const Repository& repository, const Options& options) {
     return Parts::runtime(std::make_shared<Shared>(repository, options));
@@ -82,6 +83,9 @@ std::shared_ptr<Link> ManagerImpl::create_link(const std::string& connector, con
     Operation operation(*shared_);
     if (connector == REQUEST_RESPONSE_CONNECTOR) {
         return make_request_response_connector(shared_, types);
+    }
+    if (connector == SHARED_DATA_CONNECTOR) {
+        return make_shared_data_connector(shared_, types);
     }
     throw BAD_PARAMETER("there is no connector '" + connector + "' for such types");
 }

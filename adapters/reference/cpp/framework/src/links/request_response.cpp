@@ -6,83 +6,12 @@
 #include <utility>
 
 #include "containers/container_impl.hpp"
-#include "containers/names.hpp"
 #include "links/connectors.hpp"
-#include "links/lane.hpp"
 #include "links/request_response_interfaces.hpp"
 
 namespace lwucm {
 
 namespace {
-
-Value code(const char* name) { return Value::enumerator(name); }
-
-class RequestResponse;
-
-/// A port element of a port that is attached. `of` is the port.
-class PortEnd : public End {
-  public:
-    PortEnd(Instance& instance, bool is_required, const std::string& element, std::string port, RequestResponse& link,
-            bool server)
-        : End(instance, is_required ? Role::client : Role::server, element),
-          of(std::move(port)), is_server(server), connector(link) {}
-
-    void stopping() override;
-    void left() override;
-
-    const std::string of;
-    const bool is_server;
-
-  protected:
-    RequestResponse& connector;
-};
-
-/// A port element that the connector calls.
-class CalledEnd final : public PortEnd {
-  public:
-    CalledEnd(Instance& instance, const std::string& element, const std::string& port, RequestResponse& link,
-              bool server, std::shared_ptr<DynamicPortElement> called)
-        : PortEnd(instance, false, element, port, link, server), called_(std::move(called)) {}
-
-    void started() override {
-        admission_.open();
-        lane_.open();
-    }
-    void stopping() override {
-        PortEnd::stopping();
-        lane_.shut();
-        admission_.shut();
-    }
-    void await_calls() override {
-        lane_.await_calls();
-        admission_.await_leaving();
-    }
-    void left() override {
-        PortEnd::left();
-        admission_.shut();
-        lane_.shut();
-        lane_.end();
-    }
-
-    bool is_open() { return admission_.is_open(); }
-
-    /// UCM_ERROR if the component is not operational.
-    Values call(const char* method, const Values& arguments) {
-        const Admission::Call call(admission_);
-        if (!call.admitted()) {
-            throw UCM_ERROR("the component is not operational");
-        }
-        return called_->call(method, arguments);
-    }
-
-    /// On the thread of the end, after what came before; forgotten if the component is not operational then.
-    void call_later(std::function<void()> call) { lane_.put(std::move(call)); }
-
-  private:
-    const std::shared_ptr<DynamicPortElement> called_;
-    Admission admission_;
-    Lane lane_;
-};
 
 /// A request that waits for its response. `callback` is null if its client waits.
 struct OpenRequest {
@@ -93,72 +22,15 @@ struct OpenRequest {
     Value response;
 };
 
-class RequestResponse final : public LinkImpl {
+class RequestResponse final : public PortLink {
   public:
     RequestResponse(std::shared_ptr<Shared> shared, const BoundTypes& types)
-        : LinkImpl(std::move(shared)), types_(types), nothing_(any_value(*response_type(types))) {
-        port_elements(Role::rr_synchronous_server, types);  // are they the right ones?
+        : PortLink(std::move(shared)), types_(types), nothing_(any_value(*response_type(types))) {
+        request_response_elements(Role::rr_synchronous_server, types);  // are they the right ones?
     }
-
-    void attach(Role role, const std::shared_ptr<Container>& container, componentId component,
-                const std::string& port) override {
-        Operation operation(*shared_);
-        const ContainerImpl& its_container = own(container);
-        const std::shared_ptr<Instance> instance = find(its_container, component);
-        const PortElements elements = port_elements(role, types_);
-        const std::string provided = elements.provided.empty() ? "" : port + "_" + elements.provided;
-        const std::string required = elements.required.empty() ? "" : port + "_" + elements.required;
-        if (!provided.empty()) {
-            check_port(*instance, false, provided, *elements.provided_interface);
-        }
-        if (!required.empty()) {
-            check_port(*instance, true, required, *elements.required_interface);
-        }
-        check_configuring(its_container);
-        if (!required.empty() && instance->is_connected(required)) {
-            throw UCM_ERROR(quoted(required) + " is already connected");
-        }
-        std::shared_ptr<CalledEnd> called;
-        if (!provided.empty()) {
-            called = std::make_shared<CalledEnd>(*instance, provided, port, *this, elements.is_server,
-                                                 ask(*instance, provided));
-        }
-        if (elements.is_server) {
-            claim(called, !required.empty());
-        }
-        if (!required.empty()) {
-            connect(*instance, elements, port, required, called);
-        }
-        if (called) {
-            add(called);
-        }
-    }
-
-    void detach(const std::shared_ptr<Container>& container, componentId component, const std::string& port) override {
-        Operation operation(*shared_);
-        const ContainerImpl& its_container = own(container);
-        const std::shared_ptr<Instance> instance = find(its_container, component);
-        std::vector<std::shared_ptr<End>> leaving;
-        for (const std::shared_ptr<End>& end : ends()) {
-            if (&end->instance() == instance.get() && static_cast<const PortEnd&>(*end).of == port) {
-                leaving.push_back(end);
-            }
-        }
-        if (leaving.empty()) {
-            throw NOT_FOUND(quoted(port) + " is no end of the link");
-        }
-        check_configuring(its_container);
-        Attempts attempts;
-        for (const std::shared_ptr<End>& end : leaving) {
-            remove(end, attempts);
-        }
-        attempts.check();
-    }
-
-    bool needs(const Instance&) const override { return false; }
 
     /// Drops the open requests of a component, or all if it is the server.
-    void abandon(const Instance& instance) {
+    void abandon(const Instance& instance) override {
         std::lock_guard<std::mutex> lock(mutex_);
         const bool all = server_ && &server_->instance() == &instance;
         for (auto one = open_.begin(); one != open_.end();) {
@@ -177,69 +49,30 @@ class RequestResponse final : public LinkImpl {
         }
     }
 
-  private:
-    /// What a required port element is connected to.
-    class Element final : public DynamicPortElement {
-      public:
-        typedef std::function<Values(const Values&)> Send;
+    PortElements elements_of(Role role) const override { return request_response_elements(role, types_); }
 
-        Element(std::shared_ptr<RequestResponse> connector, InterfacePtr interface, Send send)
-            : connector_(std::move(connector)), interface_(std::move(interface)), send_(std::move(send)) {}
-
-        const InterfacePtr& get_interface() const override { return interface_; }
-
-        Values call(const std::string& method, const Values& arguments) override {
-            interface_->method(method);
-            return send_(arguments);
+    void join(const AttachedPort& port) override {
+        if (!is_server(port.role)) {
+            return;
         }
-
-      private:
-        const std::shared_ptr<RequestResponse> connector_;
-        const InterfacePtr interface_;
-        const Send send_;
-    };
-
-    void claim(const std::shared_ptr<CalledEnd>& called, bool answers_later) {
         std::lock_guard<std::mutex> lock(mutex_);
         if (server_) {
             throw UCM_ERROR("the connection has a server already");
         }
-        server_ = called;
-        answers_later_ = answers_later;
+        server_ = port.called;
+        answers_later_ = port.role == Role::rr_asynchronous_server;
     }
 
-    void connect(Instance& instance, const PortElements& elements, const std::string& port, const std::string& required,
-                 const std::shared_ptr<CalledEnd>& called) {
-        RequestResponse* const self = this;
-        const Instance* const client = &instance;
-        Element::Send send;
-        if (elements.is_server) {
-            send = [self](const Values& given) { return Values{code(self->respond(given.at(0), given.at(1)))}; };
-        } else if (called) {
-            send = [self, client, called](const Values& given) { return self->ask_later(client, called, given.at(0)); };
-        } else {
-            send = [self, client](const Values& given) { return self->ask_and_wait(client, given.at(0)); };
+    Values carry_out(const AttachedPort& port, const std::string&, const Values& given) override {
+        if (is_server(port.role)) {
+            return {code(respond(given.at(0), given.at(1)))};
         }
-        const auto element = std::make_shared<Element>(
-            std::static_pointer_cast<RequestResponse>(shared_from_this()), elements.required_interface, send);
-        Attempts attempts;
-        attempts.make("on_connect", [&] { instance.connect(required, element); });
-        try {
-            attempts.check();
-        } catch (...) {
-            if (elements.is_server) {
-                forget(*called);
-            }
-            throw;
-        }
-        add(std::make_shared<PortEnd>(instance, true, required, port, *this, elements.is_server));
+        return port.called ? ask_later(port.instance, port.called, given.at(0)) : ask_and_wait(port.instance, given.at(0));
     }
 
-    const char* fault() {
-        const Condition condition = transport_.condition();
-        return condition == Condition::sound              ? nullptr
-               : condition == Condition::transport_broken ? "comm_error"
-                                                          : "internal_error";
+  private:
+    static bool is_server(Role role) {
+        return role == Role::rr_synchronous_server || role == Role::rr_asynchronous_server;
     }
 
     std::shared_ptr<CalledEnd> server(bool& answers_later) {
@@ -366,10 +199,6 @@ class RequestResponse final : public LinkImpl {
     std::map<std::uint32_t, std::shared_ptr<OpenRequest>> open_;
     std::uint32_t last_ = 0;
 };
-
-void PortEnd::stopping() { connector.abandon(instance()); }
-
-void PortEnd::left() { connector.abandon(instance()); }
 
 }  // namespace
 
