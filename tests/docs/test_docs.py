@@ -276,18 +276,20 @@ def test_example_scenario(here: Path) -> None:
     assert set(script.exercises) <= set(Monitor(load_life_cycle()).judge(scenario, trace).exercises)
 
 
-def test_request_response_guide(here: Path) -> None:
-    write_files("docs/request-response.md")
-    (replayed,) = [c for c in commands("ucm-cts replay") if "requests.yaml" in c]
+@pytest.mark.parametrize(("page", "example"), [("request-response", "requests.yaml"), ("shared-data", "shared.yaml")])
+def test_guide_to_a_part_of_extensions(here: Path, page: str, example: str) -> None:
+    write_files(f"docs/{page}.md")
+    (replayed,) = [c for c in commands("ucm-cts replay") if example in c]
     outcome = ucm_cts(*replayed.split()[1:])
     assert (outcome.status, outcome.err) == (0, "")
     assert "\nno findings" in outcome.out
-    (script,) = read_scripts(here / "requests.yaml")
+    (script,) = read_scripts(here / example)
     with Driver(locate("reference-py", in_process=True), 1) as driver:
         (answered,) = driver.run([("an example", to_scenario(script))])
     judged = Monitor(load_life_cycle()).judge(answered.disguised, answered.trace)
     assert set(script.exercises) <= set(judged.exercises)
-    (ran,) = [c for c in commands("ucm-cts run") if "--profile extensions" in c]
+    clause = {"request-response": "10.4.1", "shared-data": "10.4.2"}[page]
+    (ran,) = [c for c in commands("ucm-cts run") if f"--profile extensions -k {clause}" in c]
     assert ucm_cts(*ran.split()[1:], "--explore", "0s").status == 0
     assert report_of(here / "ucm-cts-report")["profile"] == "extensions"
 

@@ -1,4 +1,4 @@
-"""Mutants of request-response (10.4.1) fail for the right reason; variants and the reference framework do not fail."""
+"""Mutants of the parts of 10.4 fail for the right reason; variants and the reference framework do not fail."""
 
 from __future__ import annotations
 
@@ -9,18 +9,24 @@ from pipeline import TakesTooLong, bounded, check_killed, check_wording, spilled
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Pause, Scenario
-from ucm_cts.adapters.mutants.python import REQUESTS, Mutant, mutants_of, variants_of
+from ucm_cts.adapters.mutants.python import REQUESTS, SHARED, Mutant, mutants_of, variants_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.derived.request_response import request_purposes
+from ucm_cts.harness.purposes.derived.shared_data import shared_data_purposes
+from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.selftest.trials import Thoroughness, all_variants, examine_variant
+from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
 pytestmark = pytest.mark.slow
+
+PARTS = {"request-response": request_purposes, "shared-data": shared_data_purposes}
+"""The purposes of each part."""
 
 SHORT = 0.2
 """Of the patience of scenarios: what a mutant never does is not waited for longer."""
@@ -32,11 +38,15 @@ def asked(whole: Scenario) -> Scenario:
     return Disguise(1, ReferenceAdapter.port_element_name).scenario(short)
 
 
+def purposes() -> list[TestPurpose]:
+    return [purpose for made in PARTS.values() for purpose in made()]
+
+
 def failing(mutant: Mutant) -> dict[str, str]:
     """Failing requirements, each with an example, until all that the mutant breaks have failed; of its own purposes only."""
     monitor = Monitor(load_life_cycle(), Ics(mutant.readings))
     found: dict[str, str] = {}
-    own = [p for p in request_purposes() if {*p.requirements} & {*mutant.requirements}]
+    own = [p for p in purposes() if {*p.requirements} & {*mutant.requirements}]
     for name, whole in (case for purpose in own for case in purpose.scenarios):
         scenario = asked(whole)
         try:
@@ -59,24 +69,28 @@ def _reported(name: str, finding: Finding) -> str:
     return f"{name}: expected {finding.expected}; observed {finding.observed}"
 
 
-@pytest.mark.parametrize("mutant", mutants_of(REQUESTS).values(), ids=mutants_of(REQUESTS).keys())
+MUTANTS = mutants_of((*REQUESTS, *SHARED))
+
+
+@pytest.mark.parametrize("mutant", MUTANTS.values(), ids=MUTANTS.keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
     found = failing(mutant)
     if not found.keys() >= set(mutant.requirements) or spilled(mutant, found):
         check_killed(mutant)
 
 
-@pytest.mark.parametrize("name", variants_of(REQUESTS))
+@pytest.mark.parametrize("name", variants_of((*REQUESTS, *SHARED)))
 def test_conformant_framework_is_not_failed(name: str) -> None:
     result = examine_variant(all_variants()[name], Thoroughness())
     assert (result.failed, result.incidents, result.trouble) == ((), (), "")
 
 
-def test_each_requirement_arises_and_is_kept() -> None:
+@pytest.mark.parametrize("part", PARTS)
+def test_each_requirement_arises_and_is_kept(part: str) -> None:
     """On the reference framework, in the scenarios of this part alone."""
-    monitor = Monitor(load_life_cycle())
+    monitor = Monitor(load_life_cycle(), Ics(stated_by(None, "reference-py").readings))
     kept: set[str] = set()
-    for name, whole in (case for purpose in request_purposes() for case in purpose.scenarios):
+    for name, whole in (case for purpose in PARTS[part]() for case in purpose.scenarios):
         if any(isinstance(step, Pause) for step in whole.steps) and "broken" in name and "synchronous to" not in name:
             continue
         scenario = asked(whole)
@@ -85,7 +99,7 @@ def test_each_requirement_arises_and_is_kept() -> None:
         judged = monitor.judge(scenario, reply.events)
         assert judged.findings == [], name
         kept |= judged.exercises.keys()
-    due = {r.id for r in requirements_of("extensions") if r.part == "request-response" and r.rules}
+    due = {r.id for r in requirements_of("extensions") if r.part == part and r.rules}
     assert {one for one in due if "extension_declarations" not in _rules(one)} <= kept
 
 
