@@ -342,10 +342,10 @@ def _any_read(reads: list[MethodCall], published: list[Publication]) -> bool:
 def readers_agree(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """When nobody publishes any more all readers that are not frozen read one value."""
     for found in all_shared_data(runtime):
-        last: dict[int, Reading] = {}
-        for one in _readings(runtime, found):
-            if one.state == "free" and is_ok(one.call) and one.view.arrived and one.session is None:
-                last[id(one.reader)] = one
+        read = [
+            one for one in _readings(runtime, found) if one.state == "free" and is_ok(one.call) and one.view.arrived
+        ]
+        last = {id(one.reader): one for one in read if one.session is None}
         final = [one for one in last.values() if _is_final(one)]
         if len(final) < 2:
             continue

@@ -65,6 +65,7 @@ def test_a_short_statement_has_what_differs_and_what_must_be_decided(here: Path)
         "missing-execution-policy": "observed",
         "unprotected-concurrency": "may-serialise",
         "message-order": "unordered",
+        "pending-value": "observed",
     }
     undecided = {"core-models": "shipped"} | asked | free
     assert short["readings"] == dict.fromkeys(HOOKS, "hook") | undecided
