@@ -20,6 +20,7 @@ from ucm_cts.harness.execution.campaign import Campaign, Checked
 from ucm_cts.harness.execution.driver import Answer
 from ucm_cts.harness.exploring.changing import changed
 from ucm_cts.harness.exploring.core_writer import CoreWriter
+from ucm_cts.harness.exploring.extension_writer import WRITTEN_PARTS, extension_scenario
 from ucm_cts.harness.exploring.memory import Identity, Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Events, Guide
 from ucm_cts.harness.exploring.writer import Writer
@@ -103,6 +104,8 @@ class Exploration:
         self._incidents: set[IncidentCause] = set()
         self._unexplained: dict[IncidentCause, tuple[None, Execution]] = {}
         self._run = 0
+        claimed = self._statement.extensions if "extensions" in PARTS[campaign.profile] else ()
+        self._parts = [part for part in WRITTEN_PARTS if part in claimed]
 
     def replay(self) -> list[Replayed]:
         """Run the remembered failures. One that is not shown any more is forgotten, unless an incident came first."""
@@ -160,7 +163,9 @@ class Exploration:
         for number in count(1):
             known = [scenario for found, scenario in self._new if found <= number - LAG]
             of_core = "core" in PARTS[self._campaign.profile] and number % 2 == 0
+            of_extensions = self._parts and number % 4 == 1
             draw = self._draw_core if of_core else partial(self._draw, known)
+            draw = self._draw_extension if of_extensions else draw
             yield self._purpose(f"{DRAWN} {number}", self._guide.choose([draw() for _ in range(CANDIDATES)]))
 
     def _draw(self, known: Sequence[Scenario]) -> Scenario:
@@ -176,6 +181,12 @@ class Exploration:
             if drawn:
                 return drawn[0][1]
         return self._draw(())
+
+    def _draw_extension(self) -> Scenario:
+        """A scenario of a part of profile extensions that the vendor claims."""
+        part = self._random.choice(self._parts)
+        drawn = fitting([("", extension_scenario(part, self._random.choice))], self._statement)
+        return drawn[0][1] if drawn else self._draw_core()
 
     def _purpose(self, name: str, scenario: Scenario) -> TestPurpose:
         text = "A random scenario, drawn for this run."

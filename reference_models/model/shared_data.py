@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum, Integer
@@ -110,6 +111,10 @@ def _completed(
     writes = _since_last(own)
     if any(o.broken for o in (writes or own)):  # nobody knows what became of it
         values, source = tuple(_distinct(v for o in own if (v := written(o)) is not None)), "repeated"
+    if writes and any(
+        writes[-1].request.n < o.begin.n < bare.since for o in changes(runtime) if o.step.undoes == "phase"
+    ):
+        source = "repeated"  # a stop may have dropped it
     is_sure = all(source == "written" for source, _ in outcomes.values()) and all(map(is_ok, (*writes, bare.call)))
     first = writes[0].request.n if writes else own[-1].request.n if own else bare.since
     return replace(
@@ -142,7 +147,7 @@ def _set_by(operations: Sequence[MethodCall]) -> tuple[Source, Datum | None]:
 def _set_by_all(found: SharedData, bare: Publication, before: Sequence[MethodCall]) -> tuple[Source, tuple[Datum, ...]]:
     """The same if all writers set one value. Calls that overlap may have any order."""
     others = [o for o in found.operations if o is not bare.call and o.request.n < bare.over]
-    in_order = all(one.over < other.request.n for one, other in zip(others, (*others[1:], bare.call), strict=True))
+    in_order = all(one.over < other.request.n for one, other in pairwise((*others, bare.call)))
     if in_order:
         source, value = _set_by(before)
         return source, (value,) if value is not None else ()
@@ -189,8 +194,7 @@ def _find_sessions(runtime: ObservedRuntime, reader: Reader) -> None:
     session: Session | None = None
     flat = counted = 0
     for call in (c for c in reader.calls if c.request.method in (FREEZE, RELEASE)):
-        if session is not None and any(session.freeze.request.n < stop < call.request.n for stop in stops):
-            session.unclear_since = min(s for s in stops if s > session.freeze.request.n)
+        _note_stops(session, [stop for stop in stops if stop < call.request.n])
         if call.request.method == FREEZE:
             if session is None:
                 session = Session(call, len(reader.sessions) + 1)
@@ -211,9 +215,15 @@ def _find_sessions(runtime: ObservedRuntime, reader: Reader) -> None:
         if max(flat, counted) <= 0 or session.unclear_since < NEVER:
             session.released, session = call, None
         elif flat <= 0:
-            session.unclear_since = call.request.n
+            session.unclear_since = min(session.unclear_since, call.request.n)
+    _note_stops(session, stops)
+
+
+def _note_stops(session: Session | None, stops: Sequence[int]) -> None:
+    """A stop may end a freeze."""
     if session is not None:
-        session.unclear_since = min((x for x in stops if x > session.freeze.request.n), default=session.unclear_since)
+        after = (stop for stop in stops if stop > session.freeze.request.n)
+        session.unclear_since = min((session.unclear_since, *after))
 
 
 def _heard_of(runtime: ObservedRuntime, found: SharedData, reader: Reader) -> dict[int, int]:
@@ -230,8 +240,8 @@ def _heard_of(runtime: ObservedRuntime, found: SharedData, reader: Reader) -> di
     heard = spare = 0
     for moment, one in sorted(happened, key=lambda pair: pair[0]):
         if one is None:
-            spare = 1 if any(p.since < moment for p in found.publications) else 0
-            waiting, heard = [], 0
+            again = 1 if any(p.since < moment for p in found.publications) else 0
+            spare, waiting, heard = again + max(len(waiting) + spare - heard, 0), [], 0
         elif isinstance(one, Publication):
             waiting.append(one)
         else:
@@ -240,5 +250,5 @@ def _heard_of(runtime: ObservedRuntime, found: SharedData, reader: Reader) -> di
                 told.update((id(p), moment) for p in waiting)
                 waiting, heard, spare = [], 0, 0
             elif not waiting:
-                heard = spare = 0
+                heard, spare = 0, max(spare - 1, 0)
     return told

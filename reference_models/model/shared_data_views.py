@@ -72,8 +72,9 @@ def view_of(runtime: ObservedRuntime, found: SharedData, reader: Reader, read: M
     if state == "frozen" and session is not None:
         return _pinned(runtime, found, reader, session, read)
     free = _free(runtime, found, reader, read)
-    if state == "unclear" and session is not None:
-        return _both(free, _pinned(runtime, found, reader, session, read))
+    for freeze in (session.freeze, *session.nested) if state == "unclear" and session is not None else ():
+        if freeze.request.n < read.over:
+            free = _both(free, _free(runtime, found, reader, freeze))
     return free
 
 

@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.platform_interfaces import CANCEL
 from ucm_cts.adapters.contract.scenario import Start
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model.method_calls import MethodCall
+from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.shared_data import all_shared_data, changes, is_disturbed
@@ -140,7 +140,9 @@ def _unpublished(check: Property, runtime: ObservedRuntime, one: Reading, readin
 def _is_late(runtime: ObservedRuntime, one: Reading) -> bool:
     """Was the reader started after the last publication, while its writer stayed operational?"""
     last = one.published[-1] if one.published else None
-    if last is None or not last.is_sure:
+    reader = one.reader.end.member
+    was_out = last is not None and any(end.member is reader and not ready for end, ready in last.call.targets)
+    if last is None or not last.is_sure or not was_out or one.session is not None:
         return False
     since = [o for o in changes(runtime) if o.begin.n > last.over and o.begin.n < one.call.request.n]
     return bool(since) and all(isinstance(o.step, Start) for o in since) and not one.view.arrived
@@ -235,7 +237,7 @@ def _readings_taken(check: Property, runtime: ObservedRuntime, one: Reading) -> 
         elif value in view.fresh and value not in view.kept:
             refused = not all(map(is_ok, session.nested))
             yield from takes(runtime, "nested-freeze", "refused" if refused else "flat")
-    if one.state != "free" or session.released is None:
+    if one.state != "free" or session.released is None or session.unclear_since < NEVER:
         return
     end = session.released.request.n
     missed = [p for p in one.published if p.is_sure and session.freeze.over < p.since and p.over < end]

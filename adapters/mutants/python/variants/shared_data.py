@@ -110,6 +110,10 @@ class Later(Link):
         if coming:
             super()._update(reader, coming.pop(0))
 
+    def _forget(self, end: End) -> None:
+        self.__dict__.get("coming", {}).pop(end, None)
+        super()._forget(end)
+
 
 @variant_of(*SHARED, readings={"publication": "within"})
 class publishes_in_a_while(Later):
