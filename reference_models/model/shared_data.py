@@ -47,19 +47,31 @@ def all_shared_data(runtime: ObservedRuntime) -> list[SharedData]:
     return runtime.shared_data
 
 
-def changes(runtime: ObservedRuntime) -> list[Operation]:
-    """The operations that start, stop, join or disturb components or connections: what was published before one of them need not be
-    there afterwards.
+def changes(runtime: ObservedRuntime, link: LinkState) -> list[Operation]:
+    """The operations that start, stop or join components of ``link``, or disturb connections: what was published before one of them
+    need not be there afterwards.
     """
-    kinds = s.Start | s.Attach | s.Mend
-    return [o for o in runtime.interactions.changes if o.step.undoes or isinstance(o.step, kinds)]
+    places = [end.member.container for end in link.ends]
+    return [o for o in runtime.interactions.changes if _concerns(runtime, link, places, o.step)]
+
+
+def _concerns(runtime: ObservedRuntime, link: LinkState, places: Sequence[object], step: s.Step) -> bool:
+    if isinstance(step, s.Break | s.Mend):
+        return True  # connections may share what is broken
+    if isinstance(step, s.Attach | s.Detach):
+        return step.link == link.name
+    if not step.undoes and not isinstance(step, s.Start):
+        return False
+    container = runtime.containers.get(getattr(step, "container", ""))
+    return container is None or container in places
 
 
 def is_disturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Was something changed or broken while it was made?"""
     link = call.link
-    broken = link is None or bool(call.broken) or not call.ready or not call.prepared
-    return broken or any(o.overlaps(call.request.n, call.over) for o in changes(runtime))
+    if link is None or call.broken or not call.ready or not call.prepared:
+        return True
+    return any(o.overlaps(call.request.n, call.over) for o in changes(runtime, link))
 
 
 def _put_together(runtime: ObservedRuntime, link: LinkState) -> SharedData:
@@ -89,7 +101,7 @@ def _put_together(runtime: ObservedRuntime, link: LinkState) -> SharedData:
     found.voids = [one for one in publications if not one.values]
     for reader in found.readers:
         reader.reads = [c for c in reader.calls if c.request.method == READ]
-        _find_sessions(runtime, reader)
+        _find_sessions(runtime, found, reader)
         reader.heard_of = _heard_of(runtime, found, reader)
     return found
 
@@ -111,17 +123,16 @@ def _completed(
     writes = _since_last(own)
     if any(o.broken for o in (writes or own)):  # nobody knows what became of it
         values, source = tuple(_distinct(v for o in own if (v := written(o)) is not None)), "repeated"
-    if writes and any(
-        writes[-1].request.n < o.begin.n < bare.since for o in changes(runtime) if o.step.undoes == "phase"
-    ):
-        source = "repeated"  # a stop may have dropped it
     is_sure = all(source == "written" for source, _ in outcomes.values()) and all(map(is_ok, (*writes, bare.call)))
     first = writes[0].request.n if writes else own[-1].request.n if own else bare.since
     return replace(
         bare,
         values=values,
         source=source,
-        is_sure=is_sure and source == "written" and not is_disturbed(runtime, bare.call),
+        is_sure=is_sure
+        and source == "written"
+        and not is_disturbed(runtime, bare.call)
+        and not any(o.overlaps(first, bare.over) for o in changes(runtime, found.link)),
         writes=writes,
         cancelled=_cancelled(own),
         crossed=tuple(
@@ -186,11 +197,11 @@ def _distinct(values: Iterable[Datum]) -> list[Datum]:
     return found
 
 
-def _find_sessions(runtime: ObservedRuntime, reader: Reader) -> None:
+def _find_sessions(runtime: ObservedRuntime, found: SharedData, reader: Reader) -> None:
     """``ends`` are the depths of freezing by reading: one release ends all, or as many as freezes."""
     may_count = runtime.ics.permits("nested-freeze", "counted")
     must_count = runtime.ics.reading("nested-freeze") == "counted"
-    stops = [o.begin.n for o in changes(runtime)]
+    stops = [o.begin.n for o in changes(runtime, found.link)]
     session: Session | None = None
     flat = counted = 0
     for call in (c for c in reader.calls if c.request.method in (FREEZE, RELEASE)):
@@ -234,7 +245,7 @@ def _heard_of(runtime: ObservedRuntime, found: SharedData, reader: Reader) -> di
     """
     happened: list[tuple[int, Publication | Delivery | None]] = [(one.since, one) for one in found.publications]
     happened += [(notice.enter.n, notice) for notice in reader.notices]
-    happened += [(o.begin.n, None) for o in changes(runtime)]
+    happened += [(o.begin.n, None) for o in changes(runtime, found.link)]
     told: dict[int, int] = {}
     waiting: list[Publication] = []
     heard = spare = 0

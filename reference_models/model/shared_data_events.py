@@ -124,3 +124,8 @@ def given(call: MethodCall) -> Datum | None:
 def is_ok(call: MethodCall) -> bool:
     """Did it give ok?"""
     return call.code_of_results == "ok"
+
+
+def are_of_one_end(one: MethodCall, other: MethodCall) -> bool:
+    """Are both calls made through one port of one component?"""
+    return one.caller is other.caller and one.request.port == other.request.port

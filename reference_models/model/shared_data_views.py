@@ -104,9 +104,11 @@ def was_told(reader: Reader, one: Publication, call: MethodCall) -> bool:
     return moment is not None and moment < call.request.n
 
 
-def base_of(runtime: ObservedRuntime, call: MethodCall) -> int:
+def base_of(runtime: ObservedRuntime, found: SharedData, call: MethodCall) -> int:
     """The end of the last operation that changed something before ``call`` was made."""
-    return max((o.end.n for o in changes(runtime) if o.end is not None and o.end.n < call.request.n), default=0)
+    return max(
+        (o.end.n for o in changes(runtime, found.link) if o.end is not None and o.end.n < call.request.n), default=0
+    )
 
 
 def _identified(found: SharedData, read: MethodCall) -> Publication | None:
@@ -121,26 +123,54 @@ def _identified(found: SharedData, read: MethodCall) -> Publication | None:
 def _free(runtime: ObservedRuntime, found: SharedData, reader: Reader, call: MethodCall) -> View:
     """What it may read in ``call`` if it is not frozen, or would keep if that is a call of ``freeze_data``.
 
-    If a freeze holds the whole connection, what was current at freezes of others is permitted, too.
+    If a freeze holds the whole connection, that is also what was current when others were frozen.
     """
     view = _unheld(runtime, found, reader, call)
     if runtime.ics.reading("freeze-scope") == "connection":
-        others = [session for other in found.readers if other is not reader for session in other.sessions]
-        for freeze in (one.freeze for one in others if one.freeze.request.n < call.request.n):
-            view = _both(view, _free(runtime, found, reader, freeze))
+        for freeze in _holding(found, reader, call, view):
+            view = _both(view, _unheld(runtime, found, reader, freeze))
     return view
 
 
+def _holding(found: SharedData, reader: Reader, call: MethodCall, view: View) -> list[MethodCall]:
+    """The freezes of other readers that may hold the connection in ``call``: until nobody is frozen any more and something that was
+    published later has arrived. A freeze while another one holds keeps what that one kept.
+    """
+    left = [session for other in found.readers if other is not reader for session in other.sessions]
+    latest = max((one.since for one in view.arrived), default=0)
+    freezes: list[MethodCall] = []
+    looked_at = [call]
+    while looked_at:
+        moment = looked_at.pop()
+        for session in [one for one in left if one.freeze.request.n < moment.over]:
+            released = session.released
+            if released is None or released.over > moment.request.n or released.request.n > latest:
+                left.remove(session)
+                freezes.append(session.freeze)
+                looked_at.append(session.freeze)
+    return freezes
+
+
 def _unheld(runtime: ObservedRuntime, found: SharedData, reader: Reader, call: MethodCall) -> View:
-    base = base_of(runtime, call)
+    base = base_of(runtime, found, call)
     begun = [one for one in found.publications if one.since < call.over]
     arrived = [one for one in begun if one.since > base and has_arrived(runtime, found, reader, one, call)]
     current = [one for one in begun if not any(one.precedes(other) for other in arrived)]
     fresh = tuple(value for one in current for value in one.values)
+    left = _left(found, reader, base, call)
+    fresh = tuple(value for value in fresh if value not in left) or fresh
     kept = _kept(runtime, found, reader, call, arrived)
-    stale = kept.values if kept is not None else ()
+    stale = tuple(value for value in kept.values if value not in left) if kept is not None else ()
     none = not arrived or (kept is not None and kept.may_be_none)
     return View((*fresh, *stale), none, tuple(arrived), tuple(v for v in stale if v not in fresh), fresh)
+
+
+def _left(found: SharedData, reader: Reader, base: int, call: MethodCall) -> list[Datum]:
+    """The values that the reader has read since ``base`` before it read another one: they do not come back."""
+    sent = [value for one in found.publications if one.since < call.over for value in one.values]
+    reads = [r for r in reader.reads if base < r.request.n and r.over < call.request.n and is_ok(r)]
+    known = [value for r in reads if (value := given(r)) is not None and sent.count(value) == 1]
+    return [value for n, value in enumerate(known) if any(later != value for later in known[n + 1 :])]
 
 
 def _kept(
@@ -160,7 +190,7 @@ def _kept(
         reply = release.reply
         patience = runtime.scenario.patience * _NANOSECONDS
         is_late = reply is not None and call.request.t - reply.t >= patience
-        if is_late or runtime.ics.reading("publication") == "before-return":
+        if is_late:
             return None
     return _pinned(runtime, found, reader, session, call)
 

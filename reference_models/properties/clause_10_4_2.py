@@ -17,8 +17,8 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.services import is_left_hanging
-from ucm_cts.reference_models.model.shared_data import all_shared_data, is_disturbed
-from ucm_cts.reference_models.model.shared_data_events import Reader, Session, SharedData, is_ok
+from ucm_cts.reference_models.model.shared_data import all_shared_data, changes, is_disturbed
+from ucm_cts.reference_models.model.shared_data_events import Reader, Session, SharedData, are_of_one_end, is_ok
 from ucm_cts.reference_models.model.shared_data_views import state_at
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -107,12 +107,14 @@ def shared_data_codes(check: Property, runtime: ObservedRuntime, call: MethodCal
 def shared_data_contented(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call that does its work while nothing is broken gives ok; one that has nothing to do gives ok or internal_error."""
     for found in all_shared_data(runtime):
-        publications = {one.call: one for one in (*found.publications, *found.voids)}
         for call in found.operations:
             if not _is_judged(runtime, call):
                 continue
-            method, one = call.request.method, publications.get(call)
-            works = method == WRITE or (method == PUBLISH and one is not None and _sends(found, call))
+            method = call.request.method
+            is_held = any(state_at(reader, call)[0] != "free" for reader in found.readers)
+            if method == PUBLISH and is_held and runtime.ics.reading("freeze-scope") == "connection":
+                continue
+            works = method == WRITE or _is_set(runtime, found, call)
             mended = bool(found.link.mended_at) and call.request.t > found.link.mended_at
             yield from _code(check, call, works, _BROKEN if mended and method == PUBLISH else _CODES)
         for reader in found.readers:
@@ -128,11 +130,15 @@ def _is_judged(runtime: ObservedRuntime, call: MethodCall) -> bool:
     return call.code_of_results in CODES and not is_disturbed(runtime, call) and is_late
 
 
-def _sends(found: SharedData, call: MethodCall) -> bool:
-    """Does it publish a new value, as all readings have it?"""
-    one = next((p for p in found.publications if p.call is call), None)
-    own = [o for o in found.operations if o.caller is call.caller and o.request.n < call.request.n]
-    return one is not None and one.source == "written" and len(one.values) == 1 and own[-1].request.method == WRITE
+def _is_set(runtime: ObservedRuntime, found: SharedData, call: MethodCall) -> bool:
+    """Has its writer surely set a value, under all readings, when it makes ``call``?"""
+    own = [o for o in found.operations if are_of_one_end(o, call) and o.request.n < call.request.n]
+    alone = (
+        all(are_of_one_end(o, call) for o in found.operations) or runtime.ics.reading("pending-value") == "per-writer"
+    )
+    if not alone or not own or own[-1].request.method != WRITE or not is_ok(own[-1]) or own[-1].broken:
+        return False
+    return not any(o.overlaps(own[-1].request.n, call.over) for o in changes(runtime, found.link))
 
 
 def _code_of_freezing(check: Property, runtime: ObservedRuntime, reader: Reader, call: MethodCall) -> Conclusions:

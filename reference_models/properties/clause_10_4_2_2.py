@@ -19,6 +19,7 @@ from ucm_cts.reference_models.model.shared_data_events import (
     Reader,
     Session,
     SharedData,
+    are_of_one_end,
     given,
     is_ok,
     written,
@@ -144,7 +145,7 @@ def _is_late(runtime: ObservedRuntime, one: Reading) -> bool:
     was_out = last is not None and any(end.member is reader and not ready for end, ready in last.call.targets)
     if last is None or not last.is_sure or not was_out or one.session is not None:
         return False
-    since = [o for o in changes(runtime) if o.begin.n > last.over and o.begin.n < one.call.request.n]
+    since = [o for o in changes(runtime, one.found.link) if o.begin.n > last.over and o.begin.n < one.call.request.n]
     return bool(since) and all(isinstance(o.step, Start) for o in since) and not one.view.arrived
 
 
@@ -208,7 +209,7 @@ def _kept_of_writing(check: Property, runtime: ObservedRuntime, one: Reading, cu
         yield check.kept(_CANCELS)
         yield check.kept(_NOTHING)
     later = [o for o in found.operations if current.over < o.request.n and o.over < read.request.n]
-    if any(o.request.method == CANCEL and o.caller is current.call.caller for o in later):
+    if any(o.request.method == CANCEL and are_of_one_end(o, current.call) for o in later):
         yield check.kept(_NO_RECALL)
     if any(written(o) not in (None, one.value) and not _is_sent(found, o, read) for o in later):
         yield check.kept(_WRITES)
@@ -287,7 +288,7 @@ def _unknown(check: Property, runtime: ObservedRuntime, one: Reading) -> Finding
 def _not_published(check: Property, one: Reading, write: MethodCall) -> Conclusions:
     """It gave a value that was set, and then cancelled, replaced, or neither."""
     found, newest = one.found, one.view.newest
-    later = [o for o in found.operations if o.caller is write.caller and write.over < o.request.n < one.call.over]
+    later = [o for o in found.operations if are_of_one_end(o, write) and write.over < o.request.n < one.call.over]
     ended = next((o for o in later if written(o) is None), None)
     if ended is not None and ended.request.method == CANCEL:
         void = any(v.call in later and v.source == "cancelled" for v in found.voids)
@@ -314,7 +315,7 @@ def _stale(
     own = [r for r in read_by_all if r in one.reader.reads]
     others = [r for r in read_by_all if r not in one.reader.reads]
     of_writer = [p for p in one.published if p.writer is current.writer]
-    later = [o for o in found.operations if o.caller is current.call.caller and o.request.n > current.over]
+    later = [o for o in found.operations if are_of_one_end(o, current.call) and o.request.n > current.over]
     recalls = [o for o in later[:1] if o.request.method == CANCEL]
     is_new = not any(given(r) in current.values for r in read_by_all)
     reasons = (

@@ -60,7 +60,7 @@ def _began(call: MethodCall) -> int:
 
 def _starts(runtime: ObservedRuntime, found: SharedData, moment: int) -> int:
     """After a start a reader may be notified of what had been published before, and after mending of what was not sent."""
-    operations = [o for o in changes(runtime) if not o.step.undoes and o.begin.n < moment]
+    operations = [o for o in changes(runtime, found.link) if not o.step.undoes and o.begin.n < moment]
     return sum(any(p.since < o.begin.n for p in found.publications) for o in operations)
 
 
@@ -92,10 +92,12 @@ def reader_notified(check: Property, runtime: ObservedRuntime) -> Conclusions:
             yield from _counted(runtime, reader, sure)
             for one in sure:
                 reply = one.call.reply
-                if any(notice.enter.n > one.since for notice in reader.notices) or reply is None:
+                overdue = overdue_since(runtime, reader.end.member, reply) if reply is not None else 0
+                if any(one.since < notice.enter.n < overdue for notice in reader.notices) or reply is None:
                     continue
-                overdue = overdue_since(runtime, reader.end.member, reply)
-                if overdue and not _is_changed(runtime, one.since, overdue) and _is_free(reader, one, overdue):
+                held = found.readers if runtime.ics.reading("freeze-scope") == "connection" else [reader]
+                is_free = all(_is_free(other, one, overdue) for other in held)
+                if overdue and not _is_changed(runtime, found, one.since, overdue) and is_free:
                     yield check.fail(
                         "never",
                         expected=f"'{reader.end.member.lane}' is notified of the publication",
@@ -103,7 +105,7 @@ def reader_notified(check: Property, runtime: ObservedRuntime) -> Conclusions:
                         at=(one.since, reply.n, overdue),
                     )
                     break
-            yield from _coalesced(check, runtime, reader, sure)
+            yield from _coalesced(check, runtime, found, reader, sure)
 
 
 def _counted(runtime: ObservedRuntime, reader: Reader, sure: list[Publication]) -> Conclusions:
@@ -114,11 +116,13 @@ def _counted(runtime: ObservedRuntime, reader: Reader, sure: list[Publication]) 
             yield from takes(runtime, "notifications", "each")
 
 
-def _coalesced(check: Property, runtime: ObservedRuntime, reader: Reader, sure: list[Publication]) -> Conclusions:
+def _coalesced(
+    check: Property, runtime: ObservedRuntime, found: SharedData, reader: Reader, sure: list[Publication]
+) -> Conclusions:
     """Fewer notifications than publications, though all were waited for."""
     reply = sure[-1].call.reply if sure else None
     overdue = overdue_since(runtime, reader.end.member, reply) if reply is not None else 0
-    if not overdue or reader.sessions or _is_changed(runtime, sure[0].since, overdue):
+    if not overdue or reader.sessions or _is_changed(runtime, found, sure[0].since, overdue):
         return
     notices = [n for n in reader.notices if sure[0].since < n.enter.n < overdue]
     if notices and len(notices) < len(sure) and not (yield from takes(runtime, "notifications", "coalesced")):
@@ -135,8 +139,8 @@ def _is_there(reader: Reader, one: Publication) -> bool:
     return any(end.member is reader.end.member and ready for end, ready in one.call.targets)
 
 
-def _is_changed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
-    return any(o.overlaps(begin, end) for o in changes(runtime))
+def _is_changed(runtime: ObservedRuntime, found: SharedData, begin: int, end: int) -> bool:
+    return any(o.overlaps(begin, end) for o in changes(runtime, found.link))
 
 
 def _is_free(reader: Reader, one: Publication, until: int) -> bool:
@@ -164,14 +168,15 @@ def published_twice(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 continue
             following = min((p.since for p in others if p.since > one.since), default=NEVER)
             before = [p for p in others if p.since < one.since]
-            if following == NEVER or any(reader.heard_of.get(id(p), NEVER) > one.since for p in before):
+            if any(reader.heard_of.get(id(p), NEVER) > one.since for p in before) or one.call.reply is None:
                 continue
-            again = sum(n.enter.n > one.since for n in reader.notices) - (len(others) - len(before))
-            reply = others[-1].call.reply
-            is_over = reply is not None and bool(overdue_since(runtime, reader.end.member, reply))
-            if again != 1 and not (again == 0 and is_over):
+            overdue = overdue_since(runtime, reader.end.member, one.call.reply)
+            again = any(one.since < n.enter.n < following for n in reader.notices)
+            if not again and not 0 < overdue < following:
                 continue
-            if _is_changed(runtime, before[0].since if before else one.since, following):
+            if _is_changed(
+                runtime, found, before[0].since if before else one.since, min(following, overdue or following)
+            ):
                 continue
             if not (yield from takes(runtime, "publish-twice", "again" if again else "nothing")):
                 expected = f"'{reader.end.member.lane}' is told of a second publication as declared"
@@ -230,7 +235,7 @@ def _reading_of(
         or overdue > until
         or end is None
         or end.reply is None
-        or _is_changed(runtime, during[0].since, overdue)
+        or _is_changed(runtime, found, during[0].since, overdue)
     ):
         return None
     following = min((p.since for p in found.publications if p.since > until), default=NEVER)

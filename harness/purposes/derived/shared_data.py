@@ -12,13 +12,14 @@ from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.platform_interfaces import FREEZE, READ
 from ucm_cts.adapters.contract.scenario import Policy, Scenario
 from ucm_cts.harness.purposes.derived.shared_data_configuration import ELSEWHERE, Configuration
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.4.2"
 
-_BRIEF = 1000
+_BRIEF = 600
 """Milliseconds of patience where something is waited for in vain."""
 
 _QUIET = 50
@@ -67,9 +68,9 @@ def _purpose(name: str, text: str, requirements: str, scenarios: Sequence[tuple[
     return TestPurpose(f"shared data/{name}", _CLAUSE, text, ids, cases)
 
 
-def _with(writers: int, readers: int, elsewhere: bool = False) -> Configuration:
+def _with(writers: int, readers: int, elsewhere: bool = False, patience: int = 0) -> Configuration:
     """A connection with so many writers and readers; ``elsewhere``: every second reader is in another container."""
-    made = Configuration()
+    made = Configuration(patience=patience) if patience else Configuration()
     if elsewhere:
         made.container()
     made.connection()
@@ -104,6 +105,20 @@ def _participants() -> TestPurpose:
             made.write(writer).publish(writer).pause(_QUIET).update(writer).read()
         where = ", readers in two containers" if elsewhere else ""
         scenarios.append((f"{writers} writers, {readers} readers{where}", made.end()))
+    made = _with(3, 4).start()
+    for writer in range(3):
+        made.update(writer).read()
+    made.write(0).write(1).write(2).publish(2).pause(_QUIET).read()
+    scenarios.append(("3 writers, 4 readers", made.end()))
+    made = _with(1, 2).start()
+    for _ in range(24):
+        made.update().read()
+    scenarios.append(("24 publications", made.end()))
+    made = Configuration().container().connection().writer(ELSEWHERE).reader().reader(ELSEWHERE).start()
+    made.update().read().write().cancel().publish().update().read()
+    scenarios.append(("writer elsewhere", made.end()))
+    made = Configuration().connection().reader().writer().reader().start().update().read().update().read()
+    scenarios.append(("reader attached first", made.end()))
     text = "Each writer publishes, and each reader reads, twice, before and after a restart."
     ids = ".2-01 .2-02 .2-03 .2-05 1-21 1-22 2-01 2-02 2-06 2-07 2-14 2-17"
     return _purpose("participants", text, ids, scenarios)
@@ -121,10 +136,10 @@ def _steps() -> TestPurpose:
     made.update().read().write().read().publish().await_told(0, 1).read()
     made.write(times=3).read().publish().await_told(0, 1).read()
     scenarios.append(("a reader is a port of the writer", made.end()))
-    made = _with(1, 2)
-    made.patience = _BRIEF
-    made.start().update().read().publish().pause(_QUIET).read().update().listen(0).listen(1).read()
+    made = _with(1, 2, patience=_BRIEF).start().update().read().publish().listen(0).listen(1).read().update().read()
     scenarios.append(("published twice", made.end()))
+    made = _with(1, 2).start().update().update().read().publish().pause(_QUIET).read().update().read()
+    scenarios.append(("published again after two", made.end()))
     text = "A writer sets values, and publishes the last one, or none."
     return _purpose("steps", text, ".2-04 2-15 2-16 2-17 2-03 2-06", scenarios)
 
@@ -146,6 +161,10 @@ def _cancelling() -> TestPurpose:
     made.cancel().publish().pause(_QUIET).update().read().cancel().cancel().write().cancel().read()
     made.write(times=2).cancel().write().publish().await_told(0).read().cancel().read()
     scenarios.append(("nothing to cancel, and two values", made.end()))
+    made = _with(1, 2).start().update().read().write(times=2).cancel().publish().pause(_QUIET).read().update().read()
+    scenarios.append(("two values cancelled, then published", made.end()))
+    made = _with(1, 2).start().update().write().cancel().write(times=2).publish().await_told(0, 1).read()
+    scenarios.append(("cancelled, then two values", made.end()))
     text = "A writer cancels what it has set, or has published, or nothing."
     return _purpose("cancelling", text, "2-18 2-19 2-20 2-21 2-03 1-22", scenarios)
 
@@ -173,15 +192,34 @@ def _freezing() -> TestPurpose:
         made.update(but=frozen).pause(_QUIET).read()
         scenarios.append((f"{len(frozen)} of {readers} readers frozen", made.end()))
     made = _with(1, 2).start().update().read()
-    for _ in range(3):
+    for _ in range(6):
         made.freeze(0).read(0).update(but=(0,)).read().read(0).release(0).read(0).update(but=(0,)).pause(_QUIET).read()
-    scenarios.append(("frozen three times", made.end()))
+    scenarios.append(("frozen six times", made.end()))
     made = _with(1, 2).start().update().freeze(0).freeze(0).read(0).update(but=(0,)).read().release(0).pause(_QUIET)
     made.read(0).release(0).update(but=(0,)).pause(_QUIET).read()
     scenarios.append(("frozen twice, released twice", made.end()))
     made = _with(2, 2).start().update(0).freeze(0).update(1, but=(0,)).update(0, but=(0,)).read()
     made.freeze(1).write(1).publish(1).read().release(0, 1).update(0, of=()).pause(_QUIET).read()
     scenarios.append(("two writers, two readers frozen", made.end()))
+    made = _with(1, 3).start().update().read().freeze(0, 2).read(0, 2).update(of=(1,)).release(0)
+    made.update(of=(1,)).pause(_QUIET).read().release(2).update(of=(1,)).pause(_QUIET).read()
+    scenarios.append(("one of two released", made.end()))
+    made = _with(1, 2).start().update().freeze(0).read(0).update(but=(0,)).freeze(0).read(0).update(but=(0,)).read(0)
+    made.release(0).release(0).update(but=(0,)).pause(_QUIET).read()
+    scenarios.append(("frozen again after a publication", made.end()))
+    made = _with(1, 2).start().update().release(0).freeze(0).update(but=(0,)).read().release(0).release(0)
+    made.freeze(0).read(0).update(but=(0,)).read(0).release(0)
+    scenarios.append(("released, then frozen", made.end()))
+    made = _with(1, 2).start().update().read().write().freeze(0).read().publish().await_told(1).read()
+    made.write().release(0).pause(_QUIET).read().publish().await_told(1).pause(_QUIET).read()
+    scenarios.append(("set, frozen, published; set, released, published", made.end()))
+    made = Configuration().connection().writer().reader(of_writer=0).reader().start().update().read()
+    made.freeze(0).read(0).update(but=(0,)).read().release(0).update(but=(0,)).pause(_QUIET).read()
+    scenarios.append(("the writer is a frozen reader", made.end()))
+    made = _with(1, 3).start().update().read().freeze(2).update(but=(2,)).stop().remove(2).start()
+    made.update(of=(0, 1)).read(0, 1).freeze(0).update(of=(1,)).read(0, 1).release(0)
+    made.update(of=(1,)).pause(_QUIET).read(0, 1)
+    scenarios.append(("a frozen reader is removed", made.end()))
     text = "Readers are frozen while others publish and read."
     return _purpose("freezing", text, "2-09 2-10 2-11 2-12 2-13 1-22", scenarios)
 
@@ -189,15 +227,21 @@ def _freezing() -> TestPurpose:
 def _releasing() -> TestPurpose:
     """What a reader gets during a freeze and after its release, if it is given time."""
     scenarios = []
-    for missed in (1, 2):
-        made = _with(1, 2)
-        made.patience = _BRIEF
-        made.start().update().read().freeze(0)
+    for missed in (1, 2, 4):
+        made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0)
         for _ in range(missed):
             made.update(but=(0,))
         made.listen(0).read().release(0).read(0).listen(0).pause(_BRIEF).read()
         made.update(of=(1,)).pause(_BRIEF).read()
         scenarios.append((f"{missed} missed", made.end()))
+    made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0).update(but=(0,)).write().cancel().release(0)
+    made.listen(0).pause(_BRIEF).read()
+    scenarios.append(("cancelled while frozen", made.end()))
+    made = _with(2, 2, patience=_BRIEF).start().update(0).read().freeze(0).update(0, but=(0,)).update(1, but=(0,))
+    made.release(0).listen(0).pause(_BRIEF).read().read(0).read(0)
+    scenarios.append(("missed of both writers", made.end()))
+    made = _with(2, 2).start().update(0).freeze(0).release(0).update(0).update(1).read()
+    scenarios.append(("released, then both writers", made.end()))
     text = "A reader is frozen and released, and waited for each time."
     return _purpose("releasing", text, "2-02 2-09 2-12", scenarios)
 
@@ -213,10 +257,12 @@ def _writers() -> TestPurpose:
     scenarios.append(("one cancels what it has not set", made.end()))
     made = _with(2, 2).start().update(0).write(1).cancel(1).publish(0).publish(1).pause(_QUIET).read().update(1).read()
     scenarios.append(("one cancels, both publish", made.end()))
+    made = _with(2, 2).start().update(0).read().write(0).publish(1).pause(_QUIET).read().publish(0).pause(_QUIET).read()
+    scenarios.append(("one sets, the other publishes", made.update(1).read().end()))
     for number in range(3):
         made = _with(2, 3).start().update(0).update(1).read().write(0).write(1)
         made.apart(("publish", 0), ("publish", 1), *(("read", 0),) * bool(number))
-        made.await_told(0, 1, 2, times=2).read()
+        made.await_told(0, 1, 2, times=2).read().read().read()
         scenarios.append((f"both publish at once, {number}", made.end()))
     text = "Two writers set, publish and cancel in turns, or at once."
     return _purpose("writers", text, ".2-01 .2-05 .2-06 2-22 2-06", scenarios)
@@ -234,6 +280,14 @@ def _notifications() -> TestPurpose:
     for _ in range(4):
         made.update()
     scenarios.append(("read inside notifications", made.end()))
+    made = Configuration().connection().writer().reader().reader().calls_inside(0, FREEZE).calls_inside(0, READ)
+    scenarios.append(("frozen inside a notification", made.start().update().read(0).update(but=(0,)).read().end()))
+    for late in (False, True):
+        made = _with(1, 2, elsewhere=True, patience=_BRIEF)
+        made.start(s.MANAGER) if late else made.start().update().stop(ELSEWHERE)
+        made.update(of=(1,)).start(ELSEWHERE).read(0).update(of=(1,)).listen(0).pause(_BRIEF).read()
+        made.update(of=(1,)).listen(0).pause(_BRIEF).read()
+        scenarios.append((f"one reader {'is started later' if late else 'is stopped'}, and waited for", made.end()))
     for late in (False, True):
         made = _with(1, 2, elsewhere=True)
         made.start(s.MANAGER) if late else made.start().update().stop(ELSEWHERE)
@@ -251,8 +305,12 @@ def _protected() -> TestPurpose:
     """A protected reader is executed while something is published."""
     made = Configuration().connection().writer().reader(policies=(Policy(s.PROTECTED_PASSIVE),), held=True)
     made.start().enter(0).write().publish().pause(_QUIET).leave(0).await_told(0).read()
+    scenarios = [("held reader", made.end())]
+    made = Configuration().connection().writer().reader(policies=(Policy(s.PROTECTED_PASSIVE),), held=True).reader()
+    made.start().enter(0).write().publish().await_told(1).read(1).leave(0).await_told(0).read()
+    scenarios.append(("held reader and another one", made.end()))
     text = "A protected reader is executed while something is published."
-    return _purpose("protected", text, "2-05", [("held reader", made.end())])
+    return _purpose("protected", text, "2-05", scenarios)
 
 
 def _types() -> TestPurpose:
@@ -262,6 +320,18 @@ def _types() -> TestPurpose:
         made = Configuration(of, (first, second, first, second)).connection().writer().reader().reader()
         made.start().update().read().update().read().freeze(0).update(but=(0,)).read().release(0)
         scenarios.append((name, made.end()))
+    values: tuple[d.Datum, ...]
+    for name, of, values in (
+        ("negative numbers", d.Integer("LONG"), (-1, -(2**31), 0)),
+        ("long strings", d.String("CHAR8"), ("x" * 1000, "", "e")),
+        ("long sequences", d.Sequence(d.Integer("LONG")), (list(range(1000)), [], [1])),
+    ):
+        made = Configuration(of, values).connection().writer().reader().start()
+        scenarios.append((name, made.update().read().update().read().update().read().end()))
+    records: tuple[d.Datum, ...] = tuple([n, "abcd"[n], [n]] for n in range(4))
+    made = Configuration(_RECORD, records).connection().writer().writer().reader().reader().start()
+    made.update(0).update(1).read().write(0).write(1).apart(("publish", 0), ("publish", 1), ("read", 0))
+    scenarios.append(("structures at once", made.await_told(0, 1, times=2).read().read().read().end()))
     return _purpose("types", "Values of each type are shared.", ".2-08 .2-06", scenarios)
 
 
@@ -272,8 +342,13 @@ def _apart() -> TestPurpose:
     made.update(0, of=(0, 1)).read(0, 1).update(1, of=(2, 3)).read().write(0).write(1).publish(0).await_told(0, 1)
     made.read().freeze(2).update(0, of=(0, 1)).update(1, of=(3,)).read().release(2)
     made.update(0, of=(0, 1)).read(0, 1).cancel(0).write(1).publish(1).await_told(3).read(3)
+    scenarios = [("two connections", made.end())]
+    made = Configuration().connection().writer().reader().connection("second").writer().reader().reader().start()
+    made.update(0, of=(0,)).update(1, of=(1, 2)).read().freeze(0, 1).update(1, of=(2,)).release(0).read()
+    made.update(1, of=(2,)).read().release(1).write(0).write(1).cancel(0).publish(1).await_told(2).pause(_QUIET).read()
+    scenarios.append(("freezes and cancellations of two connections", made.end()))
     text = "Two connections of one type have writers and readers of their own."
-    return _purpose("apart", text, ".2-07", [("two connections", made.end())])
+    return _purpose("apart", text, ".2-07", scenarios)
 
 
 def _faults() -> TestPurpose:
@@ -285,6 +360,12 @@ def _faults() -> TestPurpose:
         made.write().break_(where).publish().mend()  # type: ignore[arg-type]
         made.write().publish().pause(_QUIET).update(of=()).pause(_QUIET).read()
         scenarios.append((f"{where} broken{'' if place == s.MANAGER else ', one reader elsewhere'}", made.end()))
+    made = _with(1, 2, patience=_BRIEF).start().update().read()
+    for _ in range(2):
+        made.write().break_("transport").publish().mend().write().publish().listen(0).pause(
+            _BRIEF
+        ).read().update().read()
+    scenarios.append(("transport broken twice", made.end()))
     return _purpose("faults", "The connection is broken, and mended.", "1-23", scenarios)
 
 
@@ -292,5 +373,13 @@ def _phases() -> TestPurpose:
     """All are stopped with a value that is not published, and with a reader that is frozen."""
     made = _with(1, 2).start().update().read().freeze(0).update(but=(0,)).write().stop().start()
     made.read().release(0).update(of=()).pause(_QUIET).update(of=()).pause(_QUIET).read()
+    scenarios = [("stopped and started again", made.end())]
+    made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0).update(but=(0,)).write().stop().start()
+    made.read().release(0).update(of=(1,)).listen(0).pause(_BRIEF).read()
+    scenarios.append(("stopped and started again, and waited for", made.end()))
+    made = _with(1, 2).start().update().read()
+    for _ in range(3):
+        made.stop().start().update(of=()).pause(_QUIET).read().update(of=()).pause(_QUIET).read()
+    scenarios.append(("started four times", made.end()))
     text = "All are stopped with a value that is not published, and with a reader that is frozen."
-    return _purpose("phases", text, "2-04 2-06 2-11", [("stopped and started again", made.end())])
+    return _purpose("phases", text, "2-04 2-06 2-11", scenarios)

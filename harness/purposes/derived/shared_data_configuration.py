@@ -123,6 +123,13 @@ class Configuration:
         part.entered += [*reads, s.HoldAtGate(self._gate(number)), s.Answer(NOTIFY, ())]
         return self
 
+    def calls_inside(self, reader: int, method: str) -> Configuration:
+        """A reader calls ``method`` in each notification, after what it calls there already."""
+        entered = self.parts[self.readers[reader]].entered
+        calls = [action for action in entered if isinstance(action, s.CallMethod)]
+        entered.insert(len(calls), s.CallMethod(f"{_IN}.reader_p", method))
+        return self
+
     # what happens
 
     def start(self, *places: str) -> Configuration:

@@ -8,7 +8,6 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.data_values import a_value
 from ucm_cts.adapters.contract.platform_interfaces import NOTIFY
 from ucm_cts.adapters.contract.platform_interfaces import SHARED as TYPE
-from ucm_cts.adapters.mutants.python.methods import alters
 from ucm_cts.adapters.mutants.python.registry import SHARED, variant_of
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK
 from ucm_cts.adapters.reference.python.members import Member
@@ -151,7 +150,7 @@ class coalesces_notifications(Link):
 
     def _notify(self, reader: End) -> None:
         waiting = self.__dict__.setdefault("waiting", set())
-        if reader in waiting:
+        if reader in waiting or reader.taker is None or not reader.taker.entrance.is_open:
             return
         waiting.add(reader)
         self._post(reader, lambda: self._tell(reader))
@@ -273,10 +272,18 @@ class shows_late_readers_nothing(Link):
             super()._update(reader, value)
 
 
-@alters("cancel", clauses=SHARED)
-def cancels_nothing_with_an_error(_self: Link, code: str, *_: object) -> str:
-    """What has nothing to do may give internal_error; here cancel_data always does."""
-    return INTERNAL_ERROR if code == OK else code
+@variant_of(*SHARED)
+class has_errors_for_nothing(Link):
+    """What has nothing to do gives internal_error: to cancel or publish nothing, and to release what is not frozen."""
+
+    def cancel(self, end: End) -> str:
+        return super().cancel(end) if end in self.pending else INTERNAL_ERROR
+
+    def publish(self, end: End) -> str:
+        return super().publish(end) if end in self.pending or self.broken else INTERNAL_ERROR
+
+    def release(self, end: End) -> str:
+        return super().release(end) if self._view(end).frozen else INTERNAL_ERROR
 
 
 @variant_of(*SHARED)
