@@ -81,7 +81,7 @@ class raises_at_frozen_readers(Link):
         return super().publish(end)
 
 
-@breaks("R-10.4.2.2-12", clauses=SHARED, also=("R-10.4.2.2-13", "R-10.4.2-05"))
+@breaks("R-10.4.2.2-12", clauses=SHARED, also=("R-10.4.2.2-13", "R-10.4.2-05", "R-10.4.2-02"))
 class never_releases(Link):
     """A reader that was frozen once stays so."""
 
@@ -110,7 +110,7 @@ class releases_to_the_next(Link):
         return super().release(end)
 
 
-@breaks("R-10.4.2.2-13", clauses=SHARED)
+@breaks("R-10.4.2.2-13", clauses=SHARED, also=("R-10.4.2.2-09",))
 class freezes_once(Link):
     """A second freeze of the same reader, after its release, does nothing."""
 
@@ -125,7 +125,7 @@ class freezes_once(Link):
         return super().release(end)
 
 
-@breaks("R-10.4.2.2-13", clauses=SHARED)
+@breaks("R-10.4.2.2-13", clauses=SHARED, also=("R-10.4.2.2-09",))
 class freezes_to_the_first_freeze(Link):
     """A reader that is frozen again reads what it had kept the first time."""
 

@@ -19,7 +19,16 @@ Link = SharedDataLink
 @breaks(
     "R-10.4-04",
     clauses=SHARED,
-    also=("R-10.4.2.2-12", "R-10.4.2.2-06", "R-10.4.2.2-08", "R-10.4.2.2-09", "R-10.4.2-05", "R-10.4.2-02"),
+    also=(
+        "R-10.4.2.2-12",
+        "R-10.4.2.2-06",
+        "R-10.4.2.2-08",
+        "R-10.4.2.2-09",
+        "R-10.4.2.2-10",
+        "R-10.4.2.2-17",
+        "R-10.4.2-05",
+        "R-10.4.2-02",
+    ),
 )
 class queues_publications(Link):
     """A reader reads one publication after the other, and the last one again and again."""
