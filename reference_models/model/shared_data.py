@@ -113,17 +113,15 @@ def _completed(
     before = [o for o in found.operations if o.request.n < bare.since]
     own = [o for o in before if writers[o] is bare.writer]
     source, value = _set_by(own)
-    outcomes: dict[bool, tuple[Source, tuple[Datum, ...]]] = {True: (source, (value,) if value is not None else ())}
-    shared = len({id(end) for end in writers.values()}) > 1 and runtime.ics.permits("pending-value", "shared")
-    if shared:
-        outcomes[False] = _set_by_all(found, bare, before)
-    if shared and not runtime.ics.permits("pending-value", "per-writer"):
-        del outcomes[True]
-    values = tuple(_distinct(value for _, values in outcomes.values() for value in values))
+    outcomes: list[tuple[Source, tuple[Datum, ...]]] = [(source, (value,) if value is not None else ())]
+    if len({id(end) for end in writers.values()}) > 1 and runtime.ics.permits("pending-value", "shared"):
+        by_all = _set_by_all(found, bare, before)
+        outcomes = [*outcomes, by_all] if runtime.ics.permits("pending-value", "per-writer") else [by_all]
+    values = tuple(_distinct(value for _, values in outcomes for value in values))
     writes = _since_last(own)
     if any(o.broken for o in (writes or own)):  # nobody knows what became of it
         values, source = tuple(_distinct(v for o in own if (v := written(o)) is not None)), "repeated"
-    is_sure = all(source == "written" for source, _ in outcomes.values()) and all(map(is_ok, (*writes, bare.call)))
+    is_sure = all(source == "written" for source, _ in outcomes) and all(map(is_ok, (*writes, bare.call)))
     first = writes[0].request.n if writes else own[-1].request.n if own else bare.since
     return replace(
         bare,

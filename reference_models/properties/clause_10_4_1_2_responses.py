@@ -6,15 +6,15 @@ from collections.abc import Sequence
 
 from ucm_cts.adapters.contract.data_types import Integer
 from ucm_cts.adapters.contract.data_values import printed
-from ucm_cts.adapters.contract.platform_interfaces import REQUEST_RESPONSE, RESPONSE, RESPONSE_DATA
-from ucm_cts.adapters.contract.scenario import Start, Stop
+from ucm_cts.adapters.contract.platform_interfaces import RESPONSE_DATA
+from ucm_cts.adapters.contract.scenario import Stop
 from ucm_cts.adapters.contract.trace import Return
-from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
+from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.extended_links import overdue_since
 from ucm_cts.reference_models.model.messages import INTERNAL_ERROR, OK
-from ucm_cts.reference_models.model.method_calls import NEVER, Delivery
+from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Requests
 from ucm_cts.reference_models.model.requests import all_requests, is_sound
@@ -264,24 +264,6 @@ def _ended(answer: Answer) -> int:
     return answer.ended.n if answer.ended is not None else NEVER
 
 
-@property_at("began", _PROTECTED, feature="extended")
-def client_protected(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
-    """A response enters a protected client when nothing else is inside."""
-    enter = execution.enter
-    if enter.hook != "method" or enter.method != RESPONSE or not _is_callback(runtime, enter.body, enter.port):
-        return
-    declaration = runtime.scenario.components[enter.component]
-    for other in execution.met:
-        if ex.exclusion(declaration, runtime.ics, execution.way, other.way):
-            yield check.fail(
-                "inside",
-                expected=f"nothing else executes '{lane(*enter.body)}' when a response enters it",
-                observed=f"its {other.way} was executed",
-                at=(other.enter.n, enter.n),
-            )
-            return
-
-
 @property_at("closed", _PROTECTED, feature="extended")
 def response_kept_out(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A response was given while its protected client was executed, and came in when that had ended."""
@@ -293,29 +275,6 @@ def response_kept_out(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 excluded = ex.exclusion(declaration, runtime.ics, execution.way, enter.port or "")
                 if excluded and execution.enter.n < given < execution.end < enter.n:
                     yield check.kept()
-
-
-def _is_callback(runtime: ObservedRuntime, body: tuple[str, int], port: str | None) -> bool:
-    member = runtime.bodies.get(body)
-    links = [k for k in runtime.interactions.links.values() if k.connector == REQUEST_RESPONSE]
-    return any(end.member is member and end.port == port for link in links for end in link.ends)
-
-
-@property_at("delivered", _PHASES, feature="extended")
-def requests_in_phase(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Concluded:
-    """Neither a request nor a response enters a component that is not operational."""
-    link, receiver = delivery.link, delivery.receiver
-    if link is None or link.connector != REQUEST_RESPONSE or receiver is None or receiver.suspended:
-        return ()
-    starting = any(isinstance(o.step, Start) for o in runtime.interactions.in_progress.values())
-    if receiver.operational or starting or receiver.container.started is not False:
-        return ()
-    return check.fail(
-        "not operational",
-        expected=f"{delivery.enter.method} enters '{receiver.lane}' while it is operational",
-        observed="it was entered outside the operational phase",
-        at=(delivery.enter.n,),
-    )
 
 
 @property_at("closed", _PHASES, feature="extended")

@@ -208,14 +208,13 @@ def _returned(check: Property, runtime: ObservedRuntime, call: MethodCall, requi
     if not call.ready or not call.prepared or call.broken:
         return
     if is_left_hanging(runtime, call.business.worker, call.request.n, call.over):
-        observed, at = "it did not, within patience", [call.request.n]
+        cause, observed, at = "hangs", "it did not, within patience", [call.request.n]
     elif reply is not None and reply.failed and not is_disturbed(runtime, call):
-        observed, at = "it raised an exception", [call.request.n, reply.n]
+        cause, observed, at = "raised", "it raised an exception", [call.request.n, reply.n]
     else:
         return
-    yield check.fail(
-        "hangs", expected=f"{_name(call)} returns", observed=observed, at=tuple(at), requirement=requirement
-    )
+    expected = f"{_name(call)} returns"
+    yield check.fail(cause, expected=expected, observed=observed, at=tuple(at), requirement=requirement)
 
 
 def _name(call: MethodCall) -> str:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import itertools
 
-from ucm_cts.adapters.contract.platform_interfaces import NOTIFY, SHARED_DATA
-from ucm_cts.adapters.contract.scenario import Start
-from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
+from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.extended_links import overdue_since
-from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall
+from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, lane
+from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.shared_data import all_shared_data, changes
 from ucm_cts.reference_models.model.shared_data_events import Publication, Reader, Session, SharedData, is_ok
 from ucm_cts.reference_models.model.shared_data_views import state_at
@@ -44,7 +42,7 @@ def notified_of_updates(check: Property, runtime: ObservedRuntime) -> Conclusion
                 requirement = _NOTHING if cancelled else _APART if near else _TWO_STEPS if at_once else _NO_UPDATE
                 yield check.fail(
                     "no update",
-                    expected=f"'{lane(*notice.enter.body)}' is notified at most once for each of {len(sent)} publications",
+                    expected=f"'{lane(*notice.enter.body)}' is notified once for each publication at most: {len(sent)} so far",
                     observed=f"on_data_update was entered {number} times",
                     at=(*((last.request.n,) if last is not None else ()), moment),
                     requirement=requirement,
@@ -245,52 +243,13 @@ def _reading_of(
     return ("none", late) if late and late < following else None
 
 
-@property_at("delivered", _PHASES, feature="extended")
-def notified_in_phase(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Concluded:
-    """No reader is notified that is not operational."""
-    link, receiver = delivery.link, delivery.receiver
-    if link is None or link.connector != SHARED_DATA or receiver is None or receiver.suspended:
-        return ()
-    starting = any(isinstance(o.step, Start) for o in runtime.interactions.in_progress.values())
-    if receiver.operational or starting or receiver.container.started is not False:
-        return ()
-    return check.fail(
-        "not operational",
-        expected=f"on_data_update of '{receiver.lane}' is entered while it is operational",
-        observed="it was entered outside the operational phase",
-        at=(delivery.enter.n,),
-    )
-
-
 @property_at("closed", _PHASES, feature="extended")
 def publications_without_reader(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Publications went on while a reader was not operational, and it was not notified."""
     for found in all_shared_data(runtime):
         for one in (p for p in found.publications if p.is_sure):
-            if any(end.side == "reader" for end in one.call.idle) or _has_stopped_reader(one):
+            if any(not ready for _, ready in one.call.targets):
                 yield check.kept()
-
-
-def _has_stopped_reader(one: Publication) -> bool:
-    return any(end.side == "reader" and not ready for end, ready in one.call.targets)
-
-
-@property_at("began", _PROTECTED, feature="extended")
-def reader_protected(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
-    """A notification enters a protected reader when nothing else is inside."""
-    enter = execution.enter
-    if enter.hook != "method" or enter.method != NOTIFY or not _is_notification(runtime, enter.body, enter.port):
-        return
-    declaration = runtime.scenario.components[enter.component]
-    for other in execution.met:
-        if ex.exclusion(declaration, runtime.ics, execution.way, other.way):
-            yield check.fail(
-                "inside",
-                expected=f"nothing else executes '{lane(*enter.body)}' when on_data_update enters it",
-                observed=f"its {other.way} was executed",
-                at=(other.enter.n, enter.n),
-            )
-            return
 
 
 @property_at("closed", _PROTECTED, timed=True, feature="extended")
@@ -306,9 +265,3 @@ def notification_kept_out(check: Property, runtime: ObservedRuntime) -> Conclusi
                     inside = [p for p in found.publications if execution.enter.n < p.since < execution.end < enter.n]
                     if excluded and inside:
                         yield check.kept()
-
-
-def _is_notification(runtime: ObservedRuntime, body: tuple[str, int], port: str | None) -> bool:
-    member: Member | None = runtime.bodies.get(body)
-    links = [k for k in runtime.interactions.links.values() if k.connector == SHARED_DATA]
-    return any(end.member is member and end.port == port for link in links for end in link.ends)

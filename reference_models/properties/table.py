@@ -18,6 +18,7 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_10_1_5,
     clause_10_1_6,
     clause_10_1_6_phases,
+    clause_10_4,
     clause_10_4_1,
     clause_10_4_1_2,
     clause_10_4_1_2_responses,

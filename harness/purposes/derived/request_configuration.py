@@ -18,6 +18,7 @@ from ucm_cts.adapters.contract.platform_interfaces import (
     named_interfaces,
 )
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.harness.purposes.derived.connection_steps import ConnectionSteps
 
 Kind = Literal["synchronous", "asynchronous"]
 SYNCHRONOUS: Final = "synchronous"
@@ -36,15 +37,12 @@ _LONG = Integer("LONG")
 _EACH = 100
 """The requests of one client are numbered from a multiple of this."""
 
-_SETTLING = 600
-"""Milliseconds after which a connector knows that it was broken or mended, unless the vendor declares more."""
-
 _GIVEN = 5000
 """Responses that a server makes up are numbered from here."""
 
 
 @dataclass
-class Configuration:
+class Configuration(ConnectionSteps):
     """A scenario under construction.
 
     ``server_place``: the container of servers; clients are in the manager.
@@ -219,21 +217,6 @@ class Configuration:
     def open(self, gate: str) -> Configuration:
         """Open a gate."""
         self.steps.append(s.OpenGate(gate))
-        return self
-
-    def pause(self, milliseconds: int) -> Configuration:
-        """Let time pass."""
-        self.steps.append(s.Pause(milliseconds))
-        return self
-
-    def break_(self, where: Literal["transport", "inside"]) -> Configuration:
-        """Break the connection, and let the connector learn of it."""
-        self.steps += [s.Break(self.link, where), s.Pause(_SETTLING)]
-        return self
-
-    def mend(self) -> Configuration:
-        """Mend it, and let the connector learn of it."""
-        self.steps += [s.Mend(self.link), s.Pause(_SETTLING)]
         return self
 
     def remove(self, number: int) -> Configuration:

@@ -20,6 +20,7 @@ from ucm_cts.adapters.contract.platform_interfaces import (
     named_interfaces,
 )
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.derived.connection_steps import ConnectionSteps
 
 ELSEWHERE = "elsewhere"
 """Another container than the manager."""
@@ -37,9 +38,6 @@ _ORDERS: Final = {PUBLISH: 11, CANCEL: 12, FREEZE: 13, RELEASE: 14, READ: 15}
 _FIRST_WRITE = 100
 """To write its first value, a writer is called with this number, and with following ones for following values."""
 
-_SETTLING = 600
-"""Milliseconds after which a connector knows that it was broken or mended, unless the vendor declares more."""
-
 
 @dataclass
 class _Part:
@@ -56,7 +54,7 @@ class _Part:
 
 
 @dataclass
-class Configuration:
+class Configuration(ConnectionSteps):
     """A scenario under construction. Writers and readers have numbers, from 0, in the order in which they were added.
 
     ``of``, ``values``: the type that is shared, and what is written, one after the other; without values they are numbers.
@@ -220,21 +218,6 @@ class Configuration:
     def leave(self, reader: int) -> Configuration:
         """It is let go."""
         self.steps += [s.OpenGate(INSIDE), s.Join(f"inside {self.readers[reader]}")]
-        return self
-
-    def pause(self, milliseconds: int) -> Configuration:
-        """Let time pass."""
-        self.steps.append(s.Pause(milliseconds))
-        return self
-
-    def break_(self, where: Literal["transport", "inside"]) -> Configuration:
-        """Break the connection, and let the connector learn of it."""
-        self.steps += [s.Break(self.link, where), s.Pause(_SETTLING)]
-        return self
-
-    def mend(self) -> Configuration:
-        """Mend it, and let the connector learn of it."""
-        self.steps += [s.Mend(self.link), s.Pause(_SETTLING)]
         return self
 
     def remove(self, reader: int) -> Configuration:
