@@ -29,6 +29,9 @@ _CHECK_ALL_SECONDS = 0.25
 """Between two samples of the memory of all processes of a host, each of which reads the system's table of processes."""
 
 _POLL_MILLISECONDS = 50
+_LONGEST_ROUND = 0.5
+"""Seconds that one round of waiting takes at most, unless the system has not let this process run."""
+
 _STACK_SECONDS = 0.3
 _QUIET_SECONDS = 0.05
 _END_SECONDS = 0.5
@@ -150,13 +153,13 @@ class WatchedHost:
             self._flush()
 
     def receive(self, deadline: Deadline) -> bytes:
-        now = time.monotonic()
-        if self._lines and now < deadline.end:
+        now, end = time.monotonic(), deadline.end
+        if self._lines and now < end:
             return self._lines.popleft()
         while True:
             if self._ended and not self._read():  # even if the pipe is held open by a process that got away
                 self._fail_ended()
-            if now >= deadline.end:
+            if now >= end:
                 self._fail_hanging(deadline)
             if now >= self._checked + _CHECK_SECONDS:
                 self._checked = now
@@ -168,7 +171,8 @@ class WatchedHost:
                     self._attend(ready)
             if self._lines:
                 return self._lines.popleft()
-            now = time.monotonic()
+            began, now = now, time.monotonic()
+            end += max(0.0, now - began - _LONGEST_ROUND)  # a machine that stood still stopped the host, too
 
     def _attend(self, ready: int) -> None:
         if ready == self._channel.error:

@@ -49,8 +49,8 @@ def no_leaks() -> Iterator[None]:
     assert children(os.getpid()) <= before[1]
 
 
-def children(pid: int) -> set[int]:
-    return {child.pid for child in psutil.Process(pid).children()}
+def children(pid: int, recursive: bool = False) -> set[int]:
+    return {child.pid for child in psutil.Process(pid).children(recursive)}
 
 
 def around_trigger(adapter: str, limits: Limits, trigger: Scenario = TRIGGER) -> tuple[Answer, list[Answer]]:
@@ -95,6 +95,17 @@ def test_hang_is_an_incident_with_stacks(adapter: str) -> None:
     incident = incident_of(f"misbehaving:{adapter}", LIMITS)
     assert (incident.kind, incident.detail) == ("hang", "no answer within 2 s")
     assert "in misbehave" in incident.stacks
+
+
+@pytest.mark.usefixtures("no_leaks")
+def test_machine_that_stands_still_is_no_hang() -> None:
+    with Hosts(locate("misbehaving:Dawdles"), Limits(seconds=3)) as hosts:
+        hosts.start_fresh()
+        every = f"{os.getpid()} {' '.join(map(str, children(os.getpid(), recursive=True)))}"
+        stopper = f"sleep 0.3; kill -STOP {every}; sleep 3.5; kill -CONT {every}"
+        with subprocess.Popen(["/bin/sh", "-c", stopper], start_new_session=True):
+            (answer,) = hosts.run([Run(1, TRIGGER)])
+    assert isinstance(answer.reply, Traced), answer.reply
 
 
 @pytest.mark.usefixtures("no_leaks")

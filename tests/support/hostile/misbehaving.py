@@ -54,6 +54,15 @@ class Hangs(_Hostile):
         threading.Event().wait()
 
 
+class Dawdles(_Hostile):
+    """Comes back after 0.6 seconds in which it runs; seconds in which it is stopped do not count."""
+
+    def misbehave(self) -> Any:
+        for _ in range(12):
+            time.sleep(0.05)
+        return 1
+
+
 class HangsNatively(_Hostile):
     """Never comes back from native code, which does not let go of the interpreter either."""
 
