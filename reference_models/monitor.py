@@ -231,6 +231,7 @@ class _TraceReader:
         history.add(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
+            self.executions.start_up(event)
         if member is not None:
             self.changes(member, hook)
             starts = ongoing is not None and ongoing.operation == "start" and ongoing.container is member.container
@@ -292,6 +293,7 @@ class _TraceReader:
             if self.ongoing is not None:
                 self.ongoing.leave(body, hook)
             if hook == "on_startup":
+                self.executions.start_up(event)
                 self.runtime.starting.add(body)
                 self.runtime.starting_up.pop(body, None)
             return

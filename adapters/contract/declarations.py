@@ -9,6 +9,7 @@ from typing import Annotated, Final, Literal
 
 from ucm_cts.adapters.contract import platform_interfaces as platform
 from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.execution_policies import *  # their names are names of this module, too
 from ucm_cts.adapters.contract.traits import Names
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
@@ -139,16 +140,6 @@ interface, ``run`` of a self-executing component (10.1.3), and ``method``, any m
 """
 
 
-SELF_EXECUTING = "protected_self-executing_component"
-ACTIVE = "protected_active_component"
-PROTECTED_PASSIVE = "protected_passive_component"
-UNPROTECTED_PASSIVE = "unprotected_passive_component"
-"""The four execution policies of 10.1.3."""
-
-SELF_EXECUTION_API = "self-execution_api"
-"""The port element that a self-executing component provides to its container."""
-
-
 CLOCK = "clock"
 COMPONENT_TRACE = "component_trace"
 PORT_TRACE = "port_trace"
@@ -179,12 +170,14 @@ class Policy(Value, frozen=True):
     ``port``: the port element that it applies to; none if it applies to the component.
     ``parameters``: values by parameter name.
     ``element``: name of the port element that the component requires by the policy (``REQUIRED_ELEMENTS``): ``policy.element``.
+    ``settings``: the parameters of a policy of 10.5 (``PERIOD``, ``OFFSET``, ``PRIORITY``), times in microseconds.
     """
 
     definition: str
     port: PortElementName | None = None
     parameters: dict[str, str] = {}
     element: PortElementName | None = None
+    settings: dict[str, Int64] = {}
 
 
 class Declaration(Value, frozen=True):

@@ -215,7 +215,7 @@ def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
     if hook == "method":
         right = event.method is not None and event.arguments is not None and event.port in declaration.ports
         return None if right else f"method {event.method!r} on {event.port!r}"
-    if hook == "run" and all(policy.definition != s.SELF_EXECUTING for policy in declaration.policies):
+    if hook == "run" and not any(s.is_self_executing(policy.definition) for policy in declaration.policies):
         return "run of a component that does not execute by itself"
     if hook in ("on_connect", "on_disconnect") and not declaration.connectable:
         return f"{hook} on a body that is not Connectable"

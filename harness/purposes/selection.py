@@ -12,6 +12,9 @@ from ucm_cts.harness.purposes.data.scenarios import data_purposes
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.derived.messages import message_purposes
+from ucm_cts.harness.purposes.derived.paced_calls import paced_call_purposes
+from ucm_cts.harness.purposes.derived.paced_policies import policy_purposes
+from ucm_cts.harness.purposes.derived.paced_runs import run_purposes as paced_run_purposes
 from ucm_cts.harness.purposes.derived.request_response import request_purposes
 from ucm_cts.harness.purposes.derived.schedules import crowd_purposes, overlap_purposes
 from ucm_cts.harness.purposes.derived.services import service_purposes
@@ -39,7 +42,13 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
 )
 """Where the purposes of profile core come from, beside scripts, dimensions and those of data types."""
 
-_EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (request_purposes, shared_data_purposes)
+_EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (
+    request_purposes,
+    shared_data_purposes,
+    policy_purposes,
+    paced_run_purposes,
+    paced_call_purposes,
+)
 """Where those of profile extensions come from."""
 
 _DIMENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (

@@ -52,6 +52,12 @@ IXIT: Mapping[str, Quantity] = {
     "error-known-within": Quantity(
         TOLERANCES["error-known-within"], "ms", "with comm-error = eventually: after this time a break is known"
     ),
+    "timer-granularity": Quantity(
+        TOLERANCES["timer-granularity"], "ms", "by so much executions by offset and period (10.5) may be early", 1000
+    ),
+    "timer-lateness": Quantity(
+        TOLERANCES["timer-lateness"], "ms", "by so much executions by offset and period (10.5) may be late"
+    ),
 }
 """Times and tolerances that a vendor may declare."""
 

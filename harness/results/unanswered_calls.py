@@ -15,7 +15,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.purposes.connections import required_ends
 from ucm_cts.harness.results.values import Execution, Incident
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.executions import call_guarantees
+from ucm_cts.reference_models.model.execution_policies import call_guarantees
 from ucm_cts.reference_models.model.runtime import lane
 
 _BETWEEN_COMPONENTS = ("R-11.2.3-03", "interactions")

@@ -16,7 +16,7 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.statement import HOOKS, IMPOSSIBLE, Statement, default_statement
 from ucm_cts.harness.results.values import Verdict
-from ucm_cts.reference_models.model.executions import protection_of
+from ucm_cts.reference_models.model.execution_policies import protection_of
 
 Cases = tuple[tuple[str, Scenario], ...]
 

@@ -11,38 +11,11 @@ from collections.abc import Iterator
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request, Settled
 from ucm_cts.reference_models.model.changing import Changing
+from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.runtime import Behind, Connection, Container, Member, Runtime
-
-Protection = Literal["", "self-executing", "active", "passive", "unprotected"]
-
-_PROTECTIONS: dict[str, Protection] = {
-    s.SELF_EXECUTING: "self-executing",
-    s.ACTIVE: "active",
-    s.PROTECTED_PASSIVE: "passive",
-    s.UNPROTECTED_PASSIVE: "unprotected",
-}
-
-
-_KNOWN = {*_PROTECTIONS, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE}
-
-_RUNS_APART = "R-10.1.3.2-05"
-_RUN_AND_PORTS, _MANAGED_PORTS, _WHOLE_COMPONENT = "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10"
-_PASSIVE, _EXECUTIONS_APART = "R-10.1.3.2-13", "R-10.1.3.2-16"
-
-CALL_EXCLUSIONS = (_RUN_AND_PORTS, _MANAGED_PORTS, _WHOLE_COMPONENT, _PASSIVE, _EXECUTIONS_APART)
-"""The requirements that keep executions by calls apart."""
-
-EXCLUSIONS = (_RUNS_APART, *CALL_EXCLUSIONS)
-"""The requirements that keep executions of a component apart."""
-
-_ACTIVE_CALLS = ("R-10.1.3.2-07", "R-10.1.3.2-08")
-
-_GUARANTEES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
-
 
 Caller = Literal["test", "body", "framework"]
 """Who made the call that led to an entry; ``framework`` if there was no call."""
@@ -156,6 +129,8 @@ class Executions:
     """All executions in progress in one trace, by body.
 
     ``pending``: the calls that have not entered a body yet and not come back.
+    ``calls``: all calls.
+    ``startups``: entry into and exit from each on_startup, by body.
     ``waiting``: the calls that wait for an execution, by the event that begins them.
     ``past``: what each body has executed, in the order in which it ended.
     """
@@ -167,11 +142,26 @@ class Executions:
         self.past = defaultdict[tuple[str, int], list[Execution]](list)
         self._opened: set[str] = set()
         self.pending: list[BusinessCall] = []
+        self.calls: list[BusinessCall] = []
+        self.startups = defaultdict[tuple[str, int], list[tuple[Enter, Exit | None]]](list)
         self.waiting: dict[int, tuple[BusinessCall, Execution]] = {}
 
     def made(self, call: BusinessCall) -> None:
         """A call has been made."""
         self.pending.append(call)
+        self.calls.append(call)
+
+    def start_up(self, event: Enter | Exit) -> None:
+        """on_startup of a body begins or ends."""
+        known = self.startups[event.body]
+        if isinstance(event, Enter):
+            known.append((event, None))
+        elif known:
+            known[-1] = known[-1][0], event
+
+    def of(self, body: tuple[str, int]) -> list[Execution]:
+        """All executions of the body, in the order in which they began."""
+        return sorted([*self.past[body], *self._inside.get(body, ())], key=lambda execution: execution.enter.n)
 
     def answered(self, call: BusinessCall) -> Execution | None:
         """A call is over; returns the execution it had waited for."""
@@ -264,60 +254,7 @@ class NoExecutions(Executions):
     def _ignore(self, *events: object, **named: object) -> None:
         """Nothing is recorded."""
 
-    made = answered = innermost = end = hold = open = settle = _ignore
-
-
-def protection_of(declaration: Declaration | None) -> Protection:
-    """How its execution policy protects a component; empty without a policy of 10.1.3."""
-    if declaration is None or not declaration.policies:
-        return ""
-    known = (_PROTECTIONS.get(p.definition) for p in declaration.policies)
-    return next((protection for protection in known if protection is not None), "")
-
-
-def managed_ports(declaration: Declaration) -> set[str]:
-    """The port elements that an active policy applies to: all of a component that has it as a whole."""
-    ports = {p.port for p in declaration.policies if p.definition == s.ACTIVE}
-    return set(declaration.provides) if None in ports else {port for port in ports if port is not None}
-
-
-def exclusion(declaration: Declaration, ics: Ics, one: str, other: str) -> str:
-    """The requirement that keeps two ways into a component apart; empty if none does, or if the vendor reads it so."""
-    protection = protection_of(declaration)
-    if protection == "self-executing":
-        if one == other == "run":
-            return _RUNS_APART
-        return "" if ics.reading("self-exec-mutex") == "run-only" else _RUN_AND_PORTS
-    if protection == "active":
-        if {one, other} <= managed_ports(declaration):
-            return _MANAGED_PORTS
-        return "" if ics.reading("active-unmanaged") == "unprotected" else _WHOLE_COMPONENT
-    if protection == "passive":
-        return _PASSIVE if one == other else _EXECUTIONS_APART
-    return ""
-
-
-def is_contradictory(declaration: Declaration) -> bool:
-    """Has the component more than the one execution policy that it may have (10.1.3)?"""
-    if not declaration.policies:
-        return False
-    applied = [p for p in declaration.policies if p.definition in _PROTECTIONS]
-    return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
-
-
-def is_plainest(declaration: Declaration, knows_policies: bool, ics: Ics) -> bool:
-    """Does no policy of the component give a reason to refuse it? It has none in a scenario that knows none, or only the one that it must
-    have where components without any are declared refused.
-    """
-    if not declaration.policies:
-        return not knows_policies
-    is_passive = declaration.policies in ((s.Policy(s.UNPROTECTED_PASSIVE),), (s.Policy(s.PROTECTED_PASSIVE),))
-    return is_passive and ics.reading("missing-execution-policy") == "refuse"
-
-
-def knows_policies(scenario: s.Scenario) -> bool:
-    """Has any component an execution policy?"""
-    return any(protection_of(declaration) for declaration in scenario.components.values())
+    made = start_up = answered = innermost = end = hold = open = settle = _ignore
 
 
 def without_policy(runtime: Runtime, container: Container) -> list[Member]:
@@ -335,22 +272,6 @@ def without_policy(runtime: Runtime, container: Container) -> list[Member]:
 def is_guarded(ics: Ics, *executions: Execution) -> bool:
     """Must the container keep these executions apart, or did the test enter through a reference that is declared unprotected?"""
     return ics.reading("raw-references") != "unprotected" or not any(e.call and e.call.by == "test" for e in executions)
-
-
-def has_unknown_policy(declaration: Declaration) -> bool:
-    """Has the component a policy that the core does not define?"""
-    return any(p.definition not in _KNOWN for p in declaration.policies)
-
-
-def call_guarantees(declaration: Declaration, port: str) -> tuple[str, ...]:
-    """The requirements by which an execution policy guarantees that calls of ``port`` are carried out."""
-    if not declaration.policies:
-        return ()
-    protection = protection_of(declaration)
-    managed = managed_ports(declaration)
-    if protection == "active" and port in managed:
-        return _ACTIVE_CALLS[::-1] if len(managed) == 1 else _ACTIVE_CALLS
-    return _GUARANTEES.get(protection, ())
 
 
 def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:

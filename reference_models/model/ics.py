@@ -11,6 +11,8 @@ TOLERANCES: Mapping[str, float] = {
     "synchronization-tolerance": 20.0,
     "epoch-tolerance": 1000.0,
     "error-known-within": 500.0,
+    "timer-granularity": 1.0,
+    "timer-lateness": 100.0,
 }
 """IXIT values that hold unless others are declared: milliseconds, ``clock-rate`` in percent."""
 

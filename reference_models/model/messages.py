@@ -22,7 +22,7 @@ _NANOSECONDS = 1_000_000
 _LONGEST = 200
 """The most characters of a message's values that findings show."""
 
-_PUNCTUALITY = 0.9
+PUNCTUALITY = 0.9
 """A wait for patience may end after this part of it: clocks differ."""
 
 
@@ -119,7 +119,7 @@ def is_disturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:
 def waited_for(runtime: ObservedRuntime, timeout: Timeout, since: int) -> bool:
     """Has patience run out for what was due from ``since`` (``t``) on, while no body is held that could be the reason?"""
     interactions = runtime.interactions
-    patience = runtime.scenario.patience * _NANOSECONDS * _PUNCTUALITY
+    patience = runtime.scenario.patience * _NANOSECONDS * PUNCTUALITY
     return not interactions.held and timeout.t - max(since, interactions.released_at) >= patience
 
 

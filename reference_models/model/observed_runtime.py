@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.reference_models.model.executions import Executions, NoExecutions, knows_policies
+from ucm_cts.reference_models.model.execution_policies import knows_policies
+from ucm_cts.reference_models.model.executions import Executions, NoExecutions
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.interactions import Interactions, NoInteractions
+from ucm_cts.reference_models.model.paced_events import PacedPhase
 from ucm_cts.reference_models.model.request_events import Requests
 from ucm_cts.reference_models.model.runtime import Runtime
 from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
@@ -15,7 +17,8 @@ from ucm_cts.reference_models.model.shared_data_events import SharedData
 class ObservedRuntime(Runtime):
     """A runtime with what bodies execute and how they interact, recorded if the scenario is ``interacting``: if port elements
     have interfaces or components policies. ``service_calls`` and ``undisturbed`` are what the functions of services
-    with these names have found, ``requests`` and ``shared_data`` what ``all_requests`` and ``all_shared_data`` have, ``is_over`` says that no event follows.
+    with these names have found, ``requests``, ``shared_data`` and ``paced_phases`` what the functions
+    ``all_requests``, ``all_shared_data`` and ``paced_phases`` have, ``is_over`` says that no event follows.
     """
 
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
@@ -29,6 +32,7 @@ class ObservedRuntime(Runtime):
         self.service_calls: list[ServiceCall] | None = None
         self.requests: list[Requests] | None = None
         self.shared_data: list[SharedData] | None = None
+        self.paced_phases: list[PacedPhase] | None = None
         self.undisturbed: list[tuple[ServiceCall, Trouble]] | None = None
         self.is_over = False
 

@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.reference_models.model.executions import has_unknown_policy, is_contradictory, is_plainest, without_policy
+from ucm_cts.reference_models.model.execution_policies import has_unknown_policy, is_contradictory, is_plainest
+from ucm_cts.reference_models.model.executions import without_policy
 from ucm_cts.reference_models.model.expected_callbacks import Listener, listener
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 from ucm_cts.reference_models.model.links import differ, is_misfit

@@ -6,7 +6,7 @@ import re
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Policy
-from ucm_cts.reference_models.model.executions import is_contradictory, protection_of
+from ucm_cts.reference_models.model.execution_policies import is_contradictory, protection_of
 from ucm_cts.reference_models.model.runtime import raises
 
 TRACES = (s.COMPONENT_TRACE, s.PORT_TRACE)

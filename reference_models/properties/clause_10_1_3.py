@@ -6,6 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Raise, Return, Stressed, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, takes
+from ucm_cts.reference_models.model import execution_policies as policies
 from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -36,7 +37,7 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
         declaration = declarations.get(ongoing.step.component)
         if declaration is None or has_meaningless_values(declaration, ongoing.step):
             return ()
-        is_open = not ex.protection_of(declaration) and not declaration.plan
+        is_open = not policies.protection_of(declaration) and not declaration.plan
         if is_open and ongoing.container.started is False and isinstance(ongoing.end, Raise):
             return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component)
         return ()
@@ -54,10 +55,10 @@ def unknown_policy_refused(check: Property, runtime: ObservedRuntime, ongoing: O
         return
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        if declaration is not None and ex.has_unknown_policy(declaration) and isinstance(ongoing.end, Raise):
+        if declaration is not None and policies.has_unknown_policy(declaration) and isinstance(ongoing.end, Raise):
             yield check.kept()
         return
-    members = [m for m in ongoing.container.live_members() if ex.has_unknown_policy(m.declaration)]
+    members = [m for m in ongoing.container.live_members() if policies.has_unknown_policy(m.declaration)]
     if members and isinstance(ongoing.end, Raise):
         yield check.kept()
     elif members:
@@ -106,14 +107,15 @@ def _is_active_twice(declaration: Declaration) -> bool:
     """Has it nothing beside the active policy on several ports, and no callback that fails?"""
     is_active = all(p.definition == s.ACTIVE and p.port is not None for p in declaration.policies)
     fails = raises(declaration, "on_init", "set_container_interface")
-    return is_active and not fails and len(ex.managed_ports(declaration)) > 1
+    return is_active and not fails and len(policies.managed_ports(declaration)) > 1
 
 
 @property_at("began", _RUN_IS_CALLED)
 def runs_again(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
     """run is called more than once a start, unless the vendor declares that it is called once."""
     enter = execution.enter
-    if execution.way != "run" or execution.met:
+    is_extended = policies.extended_policy(runtime.scenario.components[enter.component]) is not None
+    if execution.way != "run" or execution.met or is_extended:
         return
     since = runtime.executions.runs_since_start(enter.body)
     if len(since) > 1 and not (yield from takes(runtime, "run-trigger", "repeated")):
@@ -137,6 +139,8 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
         plan = member.declaration.plan.get("run", ())
         if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:
             continue
+        if policies.extended_policy(member.declaration) is not None:
+            continue
         is_long_over = runs[0].over and event.t - runs[0].left > patience * _MILLISECOND / 2
         if is_long_over and not (yield from takes(runtime, "run-trigger", "once")):
             yield check.fail(
@@ -148,7 +152,7 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
             )
 
 
-@property_at("began", *ex.CALL_EXCLUSIONS)
+@property_at("began", *policies.CALL_EXCLUSIONS)
 def circle_entered(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
     body = execution.enter.body
@@ -162,7 +166,7 @@ def circle_entered(check: Property, runtime: ObservedRuntime, execution: ex.Exec
     return ()
 
 
-@property_at("completed", *ex.CALL_EXCLUSIONS)
+@property_at("completed", *policies.CALL_EXCLUSIONS)
 def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """A call came back to the component whose execution waits for it, and was refused."""
     reply = call.reply
@@ -171,7 +175,7 @@ def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) 
     return ()
 
 
-@property_at("closed", *ex.CALL_EXCLUSIONS)
+@property_at("closed", *policies.CALL_EXCLUSIONS)
 def circle_waits(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
     for call in runtime.executions.pending:
@@ -199,7 +203,7 @@ def _returned_to(
     reading: str,
     events: tuple[int, ...],
 ) -> Conclusions:
-    requirement = ex.exclusion(member.declaration, runtime.ics, waiting.way, port)
+    requirement = policies.exclusion(member.declaration, runtime.ics, waiting.way, port)
     if requirement and not (yield from takes(runtime, "protected-recursion", reading)):
         yield check.fail(
             reading,
@@ -210,7 +214,7 @@ def _returned_to(
         )
 
 
-@property_at("stressed", *ex.CALL_EXCLUSIONS)
+@property_at("stressed", *policies.CALL_EXCLUSIONS)
 def no_overlap_under_stress(check: Property, runtime: ObservedRuntime, event: Stressed) -> Conclusions:
     """Callers that stress a protected component never meet inside."""
     step = runtime.scenario.steps[event.step]
@@ -220,11 +224,11 @@ def no_overlap_under_stress(check: Property, runtime: ObservedRuntime, event: St
     if member is None or not member.serving:
         return
     ports = [runtime.ports[ref] for ref in step.refs]
-    requirement = ex.exclusion(member.declaration, runtime.ics, ports[0], ports[-1])
+    requirement = policies.exclusion(member.declaration, runtime.ics, ports[0], ports[-1])
     if runtime.ics.reading("raw-references") == "unprotected":
         return
     if not requirement:
-        if event.overlaps and ex.protection_of(member.declaration) == "unprotected":
+        if event.overlaps and policies.protection_of(member.declaration) == "unprotected":
             yield check.kept("R-10.1.3.2-20")
         return
     yield Measured("calls stressed", event.calls)

@@ -9,6 +9,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, Taken, takes
+from ucm_cts.reference_models.model import execution_policies as policies
 from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -19,6 +20,7 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 
 _REENTERED, _RUN_IS_CALLED, _RUN_PHASE = "R-10.1.3.2-20", "R-10.1.3.2-01", "R-10.1.3.2-02"
 _UNPROMPTED = "R-10.1.3.2-03"
+_ONE_POLICY, _ONE_EXTENDED = "R-10.1.3-03", "R-10.5.1-23"
 
 _SUPPORT = {
     "self-executing": "R-10.1.3.1-12",
@@ -32,13 +34,13 @@ _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
 
-@property_at("began", *ex.EXCLUSIONS)
+@property_at("began", *policies.EXCLUSIONS)
 def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
     for other in execution.met:
-        requirement = ex.exclusion(declaration, runtime.ics, execution.way, other.way)
+        requirement = policies.exclusion(declaration, runtime.ics, execution.way, other.way)
         if requirement and ex.is_guarded(runtime.ics, execution, other):
             yield check.fail(
                 f"{other.way} {execution.way}",
@@ -53,26 +55,29 @@ def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Executio
 @property_at("began", _REENTERED)
 def overlap_possible(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """Two callers may be inside an unprotected passive component, which is reported and not required."""
-    if execution.met and ex.protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
+    if (
+        execution.met
+        and policies.protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected"
+    ):
         return (Taken("unprotected-concurrency", "concurrent"), check.kept(), Measured("overlaps provoked"))
     return ()
 
 
-@property_at("over", *ex.EXCLUSIONS)
+@property_at("over", *policies.EXCLUSIONS)
 def kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution, end: int) -> Conclusions:
     """An execution was held, a call that was to execute the same body had been made, and did not until the first ended."""
     enter = execution.enter
     for call in execution.waited:
         for member, port in ex.goals_of(runtime, call):
             own = member.body == enter.body
-            requirement = ex.exclusion(member.declaration, runtime.ics, execution.way, port) if own else ""
+            requirement = policies.exclusion(member.declaration, runtime.ics, execution.way, port) if own else ""
             inside = any(e.body == enter.body for e, _ in call.entries)
             if requirement and not inside:
                 yield check.kept(requirement)
                 yield Measured("exclusions proved")
 
 
-@property_at("delivered", *ex.CALL_EXCLUSIONS)
+@property_at("delivered", *policies.CALL_EXCLUSIONS)
 def message_kept_out(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """A message was pushed while its receiver was executed, time passed, and it came in when the execution had ended."""
     call, receiver = delivery.call, delivery.receiver
@@ -82,7 +87,7 @@ def message_kept_out(check: Property, runtime: ObservedRuntime, delivery: Delive
     for execution in runtime.executions.past.get(enter.body, ()):
         was_there = execution.enter.n < call.request.n
         if was_there and _time_passed(runtime, call.request.n, execution.end) and enter.port is not None:
-            requirement = ex.exclusion(receiver.declaration, runtime.ics, execution.way, enter.port)
+            requirement = policies.exclusion(receiver.declaration, runtime.ics, execution.way, enter.port)
             if requirement:
                 yield check.kept(requirement)
                 yield Measured("exclusions proved")
@@ -98,7 +103,7 @@ def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execut
     """A call that waits while an unprotected component is executed is kept out, which is wrong if callers are declared to meet."""
     enter = execution.enter
     body = enter.body
-    if ex.protection_of(runtime.scenario.components[enter.component]) != "unprotected":
+    if policies.protection_of(runtime.scenario.components[enter.component]) != "unprotected":
         return
     for call in execution.waited:
         inside = any(e.body == body for e, _ in call.entries)
@@ -113,7 +118,7 @@ def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execut
             )
 
 
-@property_at("began", "R-10.1.3.2-05")
+@property_at("began", "R-10.1.3.2-05", "R-10.5.2-18")
 def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """A run was held inside for several of the intervals at which run is called, and no other execution began."""
     runs = [run for run in execution.earlier if run.over]
@@ -122,7 +127,8 @@ def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execut
     begun = [run.enter.t for run in (*runs, execution)]
     usual = statistics.median(later - earlier for earlier, later in itertools.pairwise(begun))
     if any(run.left - run.enter.t >= _INTERVALS * usual for run in runs):
-        return check.kept()
+        declaration = runtime.scenario.components[execution.enter.component]
+        return check.kept(policies.exclusion(declaration, runtime.ics, "run", "run"))
     return ()
 
 
@@ -132,8 +138,10 @@ def waiting_calls_served(
 ) -> Concluded:
     """A call that had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
     enter = waited.enter
-    if ex.protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
-        return ()
+    declaration = runtime.scenario.components[enter.component]
+    protection = policies.protection_of(declaration)
+    if protection in ("", "unprotected") or (protection == "active" and policies.extended_policy(declaration)):
+        return ()  # an active component of 10.5 may refuse calls that come early
     if end and any(e.body == enter.body for e, _ in call.entries):
         return check.kept()
     ending = runtime.interactions.ends_phases(call.n, end or NEVER)
@@ -153,7 +161,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
     member, port = call.callee, call.port
     if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
         return
-    guaranteed = ex.call_guarantees(member.declaration, port)
+    guaranteed = policies.call_guarantees(member.declaration, port)
     own = [(e, x) for e, x in call.entries if e.body == member.body]
     if not guaranteed or (call.waited and not own):  # a call that waits in vain is the matter of waiting_calls_served
         return
@@ -179,8 +187,8 @@ def no_self_execution(
 ) -> Concluded:
     """A passive or active component is executed only when it is called."""
     member = runtime.bodies.get(event.body)
-    requirement = _BY_ITSELF.get(ex.protection_of(member.declaration), "") if member is not None else ""
-    if member is None or not requirement or member.suspended:
+    requirement = _BY_ITSELF.get(policies.protection_of(member.declaration), "") if member is not None else ""
+    if member is None or not requirement or member.suspended or policies.extended_policy(member.declaration):
         return ()
     if call is not None:
         return check.kept(requirement)
@@ -208,39 +216,50 @@ def policy_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
         return
     for member in ongoing.container.live_members():
         hooks = [c.hook for c in ongoing.by_body.get(member.body, ())]
-        requirement = _SUPPORT.get(ex.protection_of(member.declaration), "")
+        requirement = _support(member.declaration)
         if requirement and "on_startup" in hooks:
             yield check.kept(requirement)
 
 
+def _support(declaration: Declaration) -> str:
+    """The requirement by which a policy of 10.1.3 is supported; empty for those of 10.5."""
+    extended = policies.extended_policy(declaration)
+    return "" if extended is not None else _SUPPORT.get(policies.protection_of(declaration), "")
+
+
 def _refused(check: Property, declaration: Declaration, end: Raise) -> Conclusions:
-    requirement = _SUPPORT.get(ex.protection_of(declaration), "")
+    requirement = _support(declaration)
     active = sum(policy.definition == s.ACTIVE for policy in declaration.policies)
-    excused = ex.is_contradictory(declaration) or active > 1  # may count as two policies
-    excused = excused or bool(policies_of(declaration, *SERVICES)) or ex.has_unknown_policy(declaration)
+    excused = policies.is_contradictory(declaration) or active > 1  # may count as two policies
+    excused = excused or bool(policies_of(declaration, *SERVICES)) or policies.has_unknown_policy(declaration)
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
         expected = f"a component with the policy {declaration.policies[0].definition} is added"
         yield check.refused("add_component", end, expected=expected, requirement=requirement)
 
 
-@property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
+@property_at("ended", _ONE_POLICY, _ONE_EXTENDED, at=("add_component", "start"), feature="policies")
 def one_execution_policy(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        if declaration is not None and ex.is_contradictory(declaration) and isinstance(ongoing.end, Raise):
-            yield check.kept()
+        if declaration is not None and policies.is_contradictory(declaration) and isinstance(ongoing.end, Raise):
+            yield check.kept(_one_policy(declaration))
         return
-    members = [m for m in ongoing.container.live_members() if ex.is_contradictory(m.declaration)]
+    members = [m for m in ongoing.container.live_members() if policies.is_contradictory(m.declaration)]
     if members and isinstance(ongoing.end, Raise):
-        yield check.kept()
+        yield check.kept(_one_policy(members[0].declaration))
     for member in members if isinstance(ongoing.end, Return) else ():
         yield check.fail(
             "started",
             expected=f"'{member.lane}', which has two execution policies, is not started",
             observed="start returned",
             event=ongoing.end,
+            requirement=_one_policy(member.declaration),
         )
+
+
+def _one_policy(declaration: Declaration) -> str:
+    return _ONE_POLICY if policies.extended_policy(declaration) is None else _ONE_EXTENDED
 
 
 @property_at("began", _RUN_IS_CALLED, _RUN_PHASE, _UNPROMPTED)
@@ -248,7 +267,8 @@ def run_phases(check: Property, runtime: ObservedRuntime, execution: ex.Executio
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
     member = runtime.bodies.get(enter.body)
-    if enter.hook != "run" or (member is not None and member.suspended):
+    declaration = runtime.scenario.components[enter.component]
+    if enter.hook != "run" or (member is not None and member.suspended) or policies.extended_policy(declaration):
         return
     if member is not None and runtime.may_run(member):
         yield check.kept()
@@ -273,6 +293,8 @@ def run_triggered(check: Property, runtime: ObservedRuntime, event: Timeout) -> 
     if not isinstance(step, s.ReachGate):
         return
     for member in runtime.present:
+        if policies.extended_policy(member.declaration) is not None:
+            continue
         runs = runtime.executions.runs_since_start(member.body)
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             unprompted = not member.connections and not member.served

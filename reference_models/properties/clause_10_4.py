@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from ucm_cts.adapters.contract.platform_interfaces import NOTIFY, REQUEST_RESPONSE, RESPONSE, SHARED_DATA
 from ucm_cts.adapters.contract.scenario import Start
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
+from ucm_cts.reference_models.model import execution_policies as policies
 from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.method_calls import Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -45,7 +46,7 @@ def called_back_alone(check: Property, runtime: ObservedRuntime, execution: ex.E
         return
     declaration = runtime.scenario.components[enter.component]
     for other in execution.met:
-        if ex.exclusion(declaration, runtime.ics, execution.way, other.way):
+        if policies.exclusion(declaration, runtime.ics, execution.way, other.way):
             yield check.fail(
                 "inside",
                 expected=f"nothing else executes '{lane(*enter.body)}' when {enter.method} enters it",

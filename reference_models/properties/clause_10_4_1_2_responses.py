@@ -11,7 +11,7 @@ from ucm_cts.adapters.contract.scenario import Stop
 from ucm_cts.adapters.contract.trace import Return
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model import executions as ex
+from ucm_cts.reference_models.model import execution_policies as policies
 from ucm_cts.reference_models.model.extended_links import overdue_since
 from ucm_cts.reference_models.model.messages import INTERNAL_ERROR, OK
 from ucm_cts.reference_models.model.method_calls import NEVER
@@ -272,7 +272,7 @@ def response_kept_out(check: Property, runtime: ObservedRuntime) -> Conclusions:
             enter, declaration = callback.delivery.enter, callback.client.member.declaration
             for execution in runtime.executions.past.get(enter.body, ()):
                 given = callback.answer.moment if callback.answer is not None else NEVER
-                excluded = ex.exclusion(declaration, runtime.ics, execution.way, enter.port or "")
+                excluded = policies.exclusion(declaration, runtime.ics, execution.way, enter.port or "")
                 if excluded and execution.enter.n < given < execution.end < enter.n:
                     yield check.kept()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 from ucm_cts.reference_models.conclusions import Conclusions, takes
-from ucm_cts.reference_models.model import executions as ex
+from ucm_cts.reference_models.model import execution_policies as policies
 from ucm_cts.reference_models.model.extended_links import overdue_since
 from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -261,7 +261,7 @@ def notification_kept_out(check: Property, runtime: ObservedRuntime) -> Conclusi
                 enter = notice.enter
                 declaration = reader.end.member.declaration
                 for execution in runtime.executions.past.get(enter.body, ()):
-                    excluded = ex.exclusion(declaration, runtime.ics, execution.way, enter.port or "")
+                    excluded = policies.exclusion(declaration, runtime.ics, execution.way, enter.port or "")
                     inside = [p for p in found.publications if execution.enter.n < p.since < execution.end < enter.n]
                     if excluded and inside:
                         yield check.kept()

@@ -8,7 +8,8 @@ from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.designation import error_name
-from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, call_guarantees, connections_behind
+from ucm_cts.reference_models.model.execution_policies import call_guarantees, extended_policy
+from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, connections_behind
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member, lane
@@ -33,6 +34,8 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         return
     if port is not None and call_guarantees(member.declaration, port):
         return  # its execution policy's matter
+    if isinstance(end, Raise) and extended_policy(member.declaration) is not None:
+        return  # so it is where calls may be refused that come early
     component, instance = member.body
     own = call.entries
     if len(own) != 1 or own[0][0].instance != instance or own[0][0].component != component:
@@ -124,6 +127,8 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
         return ()
     for provider in providers:
         if not provider.serving or (provider.declaration.plan and provider.raises("exchange")):
+            return ()
+        if extended_policy(provider.declaration) is not None:
             return ()
     if not reply.raised:
         return check.kept()

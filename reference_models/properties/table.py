@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import get_args
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.reference_models.model.execution_policies import extended_policy
 from ucm_cts.reference_models.model.executions import Caller
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
 from ucm_cts.reference_models.properties import (  # noqa: F401 - importing these registers all properties
@@ -25,6 +26,10 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_10_4_2,
     clause_10_4_2_2,
     clause_10_4_2_2_notifications,
+    clause_10_5_1,
+    clause_10_5_2,
+    clause_10_5_2_invocations,
+    clause_10_5_2_runs,
     clause_11_2_1,
     clause_11_2_1_2,
     clause_11_2_2,
@@ -76,6 +81,8 @@ def features_of(scenario: s.Scenario) -> frozenset[Feature]:
     for declaration in scenario.components.values():
         if declaration.policies:
             features.update(("policies", "interactions"))
+        if extended_policy(declaration) is not None:
+            features.add("paced")
         if declaration.fragment:
             features.add("fragments")
         if declaration.attributes or declaration.defaults:

@@ -13,6 +13,7 @@ from ucm_cts.adapters.mutants.python.registry import (
     CONTAINER,
     CORE,
     MUTANTS,
+    PACED,
     POLICIES,
     REQUESTS,
     SHARED,
@@ -31,6 +32,7 @@ __all__ = [
     "CONTAINER",
     "CORE",
     "MUTANTS",
+    "PACED",
     "POLICIES",
     "REQUESTS",
     "SHARED",
@@ -52,6 +54,7 @@ MODULES = {
         "draining",
         "execution",
         "messages",
+        "paced",
         "phases",
         "readings",
         "requests",
@@ -76,6 +79,7 @@ MODULES = {
     "extensions": (
         *("requests", "responses", "request_connections"),
         *("shared_freezes", "shared_notices", "shared_reads", "shared_writes"),
+        *("paced_calls", "paced_parameters", "paced_phases", "paced_runs"),
     ),
     "dimensions": (
         "aftermath",

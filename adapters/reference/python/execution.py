@@ -10,20 +10,35 @@ from typing import TypeVar
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.reference.python.pacing import Pace, PacedExecutor
 
 PROTECTED = {s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE}
-POLICIES = {*PROTECTED, s.UNPROTECTED_PASSIVE}
-"""The execution policies of 10.1.3."""
+POLICIES = {*PROTECTED, s.UNPROTECTED_PASSIVE, *s.EXTENDED}
+"""The execution policies of 10.1.3 and 10.5."""
 
 T = TypeVar("T")
 
 
+def is_active(policy: s.Policy) -> bool:
+    """Has the container threads of its own behind the port that ``policy`` manages?"""
+    return s.EXTENDED.get(policy.definition, policy.definition) == s.ACTIVE
+
+
 class Execution:
-    """How one component is executed: what its policies say, and the lock and threads it takes."""
+    """How one component is executed: what its policies say, and the lock and threads it takes.
+
+    ``definition``: the policy of 10.1.3 that holds, itself or because it is extended.
+    ``extended``: the policies of 10.5.
+    ``paces``: their instants in this operational phase, by port element.
+    """
 
     def __init__(self, policies: Sequence[s.Policy]) -> None:
-        self.definition = next((p.definition for p in policies if p.definition in POLICIES), "")
-        self.managed = {policy.port for policy in policies if policy.definition == s.ACTIVE}
+        applied = next((p.definition for p in policies if p.definition in POLICIES), "")
+        self.definition = s.EXTENDED.get(applied, applied)
+        self.managed = {policy.port for policy in policies if is_active(policy)}
+        self.extended = [policy for policy in policies if policy.definition in s.EXTENDED]
+        self.paces: dict[str | None, Pace] = {}
+        self.paced_executor: PacedExecutor | None = None
         self.lock = threading.RLock()
         self.thread_inside: int | None = None
         self.executor = Executor()

@@ -1,4 +1,4 @@
-"""Execution policies (10.1.3): which components are protected, which have a thread, and what the threads do.
+"""Execution policies (10.1.3, 10.5): which components are protected, which have a thread, and what the threads do.
 
 Every call of a protected component, through any reference or of ``run``, takes the component's lock. A thread
 that is inside may enter again; calls that come back to the component on another thread wait like all others.
@@ -14,8 +14,10 @@ from typing import TypeVar
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.reference.python.execution import POLICIES, PROTECTED, Trigger
-from ucm_cts.adapters.reference.python.members import HasMembers, Member
+from ucm_cts.adapters.reference.python.execution import POLICIES, PROTECTED, Trigger, is_active
+from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.paced_execution import PacesExecutions
+from ucm_cts.adapters.reference.python.pacing import check_settings
 
 T = TypeVar("T")
 
@@ -33,7 +35,7 @@ class ProtectedElement(pm.PortElementObject):
         return self.container._execute(self.member, self.port, lambda: self.element.call(method, arguments))
 
 
-class ExecutesComponents(HasMembers):
+class ExecutesComponents(PacesExecutions):
     """The part of a container that applies execution policies. One concern each, for variants to override."""
 
     period = 0.002
@@ -44,11 +46,16 @@ class ExecutesComponents(HasMembers):
         for policy in policies:
             if policy.definition not in POLICIES or policy.parameters:
                 raise pm.UcmError(f"{implementation.name!r} has an unknown policy: {policy}")
-            due = implementation.provides if policy.definition == s.ACTIVE else (None,)
+            self._check_settings(policy)
+            due = implementation.provides if is_active(policy) else (None,)
             if policy.port not in due:
                 raise pm.UcmError(f"{policy.definition!r} cannot be applied to {policy.port or 'a component'!r}")
-        if len(policies) > 1 and any(policy.definition != s.ACTIVE for policy in policies):
+        several = {policy.definition for policy in policies}
+        if len(several) > 1 or (len(policies) > 1 and not all(map(is_active, policies))):
             raise pm.UcmError(f"{implementation.name!r} has more than one execution policy")
+
+    def _check_settings(self, policy: s.Policy) -> None:
+        check_settings(policy)
 
     def _check_body(self, member: Member) -> None:
         if member.execution.definition == s.SELF_EXECUTING:
@@ -66,6 +73,8 @@ class ExecutesComponents(HasMembers):
     def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
         """Enter a protected component at ``port``, or at ``run``."""
         if port in member.execution.managed and not member.execution.is_inside:
+            if member.execution.extended:
+                return self._execute_paced(member, port, work)
             return self._execute_on_own_thread(member, lambda: self._execute_alone(member, port, work))
         return self._execute_alone(member, port, work)
 
@@ -89,15 +98,20 @@ class ExecutesComponents(HasMembers):
 
     def _begin_execution(self, member: Member) -> None:
         """The component and its container are operational."""
-        if member.execution.definition == s.SELF_EXECUTING and member.execution.trigger is None:
-            trigger = member.execution.trigger = Trigger()
-            threading.Thread(target=self._keep_running, args=(member, trigger), daemon=True).start()
+        execution = member.execution
+        if execution.extended:
+            self._begin_pace(member)
+        if execution.definition == s.SELF_EXECUTING and execution.trigger is None:
+            trigger = execution.trigger = Trigger()
+            runs = self._run_paced if execution.extended else self._keep_running
+            threading.Thread(target=runs, args=(member, trigger), daemon=True).start()
 
     def _end_execution(self, member: Member) -> None:
         """The component is about to be shut down; also called of one that never executed."""
         if member.execution.trigger:
             member.execution.trigger.end()
             member.execution.trigger = None
+        self._end_pace(member)
 
     def _keep_running(self, member: Member, trigger: Trigger) -> None:
         while not trigger.ended.wait(self.period):
@@ -110,7 +124,8 @@ class ExecutesComponents(HasMembers):
             self._execute(member, None, lambda: trigger.run(body_run))
 
     def _execution_api(self, member: Member) -> pm.ComponentExecution:
-        api = member.body.get_policy_element(s.SELF_EXECUTING, s.SELF_EXECUTION_API)
+        policy = member.execution.extended[0].definition if member.execution.extended else s.SELF_EXECUTING
+        api = member.body.get_policy_element(policy, s.SELF_EXECUTION_API)
         if api is None:
             raise pm.UcmError(f"component {member.id} does not provide {s.SELF_EXECUTION_API}")
         return api

@@ -33,7 +33,7 @@ class Policies:
     ``managed``: port elements that the thread of an active component serves.
     ``elements``: policies that make the component require a port element (clock, trace), by that port element's name.
     ``traces``: the port traces.
-    ``others``: policies that 10.1 does not have.
+    ``others``: policies that 10.1 does not have, those of 10.5 among them.
     """
 
     executions: tuple[str, ...]

@@ -120,7 +120,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self.instance = stage.number(self, component)
         self._plan = declaration.plan
         self._ports = {port: ProbePort(self, port) for port in declaration.provides}
-        executes_itself = any(policy.definition == s.SELF_EXECUTING for policy in declaration.policies)
+        executes_itself = any(s.is_self_executing(policy.definition) for policy in declaration.policies)
         self._execution = ProbeExecution(self) if executes_itself else None
         self._attributes: dict[str, str] = {}
         self._references: dict[str, list[pm.PortElementObject]] = {}
@@ -166,7 +166,8 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         return self._ports.get(provided) if isinstance(provided, str) else None
 
     def get_policy_element(self, policy: str, element: str) -> pm.ComponentExecution | None:
-        return self._execution if (policy, element) == (s.SELF_EXECUTING, s.SELF_EXECUTION_API) else None
+        asked = isinstance(policy, str) and s.is_self_executing(policy) and element == s.SELF_EXECUTION_API
+        return self._execution if asked else None
 
     def run(self) -> None:
         """What the container of a self-executing probe calls."""

@@ -1,4 +1,4 @@
-"""Mutants of the parts of 10.4 fail for the right reason; variants and the reference framework do not fail."""
+"""Mutants of the parts of 10.4 and 10.5 fail for the right reason; variants and the reference framework do not fail."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ from pipeline import TakesTooLong, bounded, check_killed, check_wording, spilled
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.mutants.python import REQUESTS, SHARED, Mutant, mutants_of, variants_of
+from ucm_cts.adapters.mutants.python import PACED, REQUESTS, SHARED, Mutant, mutants_of, variants_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.derived.paced_calls import paced_call_purposes
+from ucm_cts.harness.purposes.derived.paced_policies import NAMES, policy_purposes
+from ucm_cts.harness.purposes.derived.paced_runs import run_purposes
 from ucm_cts.harness.purposes.derived.request_response import request_purposes
 from ucm_cts.harness.purposes.derived.shared_data import shared_data_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -25,8 +28,12 @@ from ucm_cts.reference_models.monitor import Monitor
 
 pytestmark = pytest.mark.slow
 
-PARTS = {"request-response": request_purposes, "shared-data": shared_data_purposes}
-"""The purposes of each part."""
+PARTS = {
+    ("request-response",): request_purposes,
+    ("shared-data",): shared_data_purposes,
+    ("execution", *NAMES): lambda: [*policy_purposes(), *run_purposes(), *paced_call_purposes()],
+}
+"""The purposes of each part, or of parts that have some in common."""
 
 SHORT = 0.2
 """Of the patience of scenarios: what a mutant never does is not waited for longer."""
@@ -69,7 +76,7 @@ def _reported(name: str, finding: Finding) -> str:
     return f"{name}: expected {finding.expected}; observed {finding.observed}"
 
 
-MUTANTS = mutants_of((*REQUESTS, *SHARED))
+MUTANTS = mutants_of((*REQUESTS, *SHARED, *PACED))
 
 
 @pytest.mark.parametrize("mutant", MUTANTS.values(), ids=MUTANTS.keys())
@@ -79,18 +86,18 @@ def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
         check_killed(mutant)
 
 
-@pytest.mark.parametrize("name", variants_of((*REQUESTS, *SHARED)))
+@pytest.mark.parametrize("name", variants_of((*REQUESTS, *SHARED, *PACED)))
 def test_conformant_framework_is_not_failed(name: str) -> None:
     result = examine_variant(all_variants()[name], Thoroughness())
     assert (result.failed, result.incidents, result.trouble) == ((), (), "")
 
 
-@pytest.mark.parametrize("part", PARTS)
-def test_each_requirement_arises_and_is_kept(part: str) -> None:
+@pytest.mark.parametrize("parts", PARTS, ids=lambda parts: parts[0])
+def test_each_requirement_arises_and_is_kept(parts: tuple[str, ...]) -> None:
     """On the reference framework, in the scenarios of this part alone."""
     monitor = Monitor(load_life_cycle(), Ics(stated_by(None, "reference-py").readings))
     kept: set[str] = set()
-    for name, whole in (case for purpose in PARTS[part]() for case in purpose.scenarios):
+    for name, whole in (case for purpose in PARTS[parts]() for case in purpose.scenarios):
         if "broken when" in name:  # they take long and show nothing more
             continue
         scenario = asked(whole)
@@ -99,7 +106,7 @@ def test_each_requirement_arises_and_is_kept(part: str) -> None:
         judged = monitor.judge(scenario, reply.events)
         assert judged.findings == [], name
         kept |= judged.exercises.keys()
-    due = {r.id for r in requirements_of("extensions") if r.part == part and r.rules}
+    due = {r.id for r in requirements_of("extensions") if r.part in parts and r.rules}
     assert {one for one in due if "extension_declarations" not in _rules(one)} <= kept
 
 

@@ -61,7 +61,8 @@ bool asked_for(const std::string& bodies) {
 /// Interfaces that only a scenario knows are in no model, and neither are the policies by which a component provides or requires
 /// port elements.
 bool is_modelled(const Shaped& one) {
-    static const std::vector<std::string> with_port_elements = {ucm_cts::SELF_EXECUTING, "clock", "component_trace"};
+    static const std::vector<std::string> with_port_elements = {ucm_cts::SELF_EXECUTING, ucm_cts::PERIODIC_SELF_EXECUTING,
+                                                                ucm_cts::BACKGROUND, "clock", "component_trace"};
     return one.interfaces.empty() &&
            std::none_of(one.policies.begin(), one.policies.end(), [](const ucm_cts::Policy& policy) {
                return std::count(with_port_elements.begin(), with_port_elements.end(), policy.definition) != 0;

@@ -235,7 +235,7 @@ struct Policies {
 
     std::vector<PortTrace> traces;
 
-    /// Policies that 10.1 does not have.
+    /// Policies that 10.1 does not have, those of 10.5 among them.
     std::vector<Policy> others;
 
   private:

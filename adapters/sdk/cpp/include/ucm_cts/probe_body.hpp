@@ -104,7 +104,7 @@ class ProbeBody final : public Body {
     std::shared_ptr<ComponentExecution> get_policy_element(const std::string& policy,
                                                            const std::string& element) override {
         for (const Policy& own : probe_->declaration().policies) {
-            if (own.definition == policy && policy == SELF_EXECUTING && element == SELF_EXECUTION_API) {
+            if (own.definition == policy && is_self_executing(policy) && element == SELF_EXECUTION_API) {
                 return std::make_shared<ProbeExecution>(probe_);
             }
         }

@@ -18,9 +18,15 @@ typedef StepKind Operation;
 /// A declaration and its name.
 typedef std::pair<std::string, Declaration> Component;
 
-/// The execution policy (10.1.3) that makes a component provide a port element to its container, and that port element.
+/// The execution policies (10.1.3, 10.5) that make a component provide a port element to its container, and that port element.
 const char* const SELF_EXECUTING = "protected_self-executing_component";
+const char* const PERIODIC_SELF_EXECUTING = "periodic_self-executing_component";
+const char* const BACKGROUND = "background_self-executing_component";
 const char* const SELF_EXECUTION_API = "self-execution_api";
+
+inline bool is_self_executing(const std::string& policy) {
+    return policy == SELF_EXECUTING || policy == PERIODIC_SELF_EXECUTING || policy == BACKGROUND;
+}
 
 /// The method of messages (10.1.6).
 const char* const PUSH = "push";

@@ -122,11 +122,13 @@ inline Words words_of(Hook) {
 /// `parameters`: values by parameter name.
 /// `element`: name of the port element that the component requires by the policy (`REQUIRED_ELEMENTS`):
 /// `policy.element`.
+/// `settings`: the parameters of a policy of 10.5 (`PERIOD`, `OFFSET`, `PRIORITY`), times in microseconds.
 struct Policy {
     std::string definition;
     std::string port;
     std::map<std::string, std::string> parameters;
     std::string element;
+    std::map<std::string, std::int64_t> settings;
 };
 
 /// A component implementation that the framework must be able to instantiate: a probe body and its plan.

@@ -92,6 +92,7 @@ inline void read(const json::Value& value, Policy& into) {
     fields.nullable("port", into.port);
     fields.optional("parameters", into.parameters);
     fields.nullable("element", into.element);
+    fields.optional("settings", into.settings);
     fields.end();
 }
 

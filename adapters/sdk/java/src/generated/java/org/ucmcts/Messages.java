@@ -176,7 +176,8 @@ final class Messages {
             needs("definition", TEXT),
             may("port", orNull(TEXT), null),
             may("parameters", map(TEXT, TEXT), new Node(Map.of())),
-            may("element", orNull(TEXT), null));
+            may("element", orNull(TEXT), null),
+            may("settings", map(TEXT, INT64), new Node(Map.of())));
 
     /**
      * A technical policy of a component implementation (9.5.4.3).
@@ -186,6 +187,7 @@ final class Messages {
      * `parameters`: values by parameter name.
      * `element`: name of the port element that the component requires by the policy (`REQUIRED_ELEMENTS`):
      * `policy.element`.
+     * `settings`: the parameters of a policy of 10.5 (`PERIOD`, `OFFSET`, `PRIORITY`), times in microseconds.
      */
     static final class Policy extends Node {
         private Policy(Map<String, Object> fields) {
@@ -206,6 +208,10 @@ final class Messages {
 
         String element() {
             return text("element");
+        }
+
+        Map<String, Long> settings() {
+            return as(node("settings").fields());
         }
     }
 

@@ -6,6 +6,7 @@ import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import org.ucmcts.Messages.Action;
 import org.ucmcts.Messages.Declaration;
 
@@ -14,7 +15,10 @@ import org.ucmcts.Messages.Declaration;
  * once the recording has stopped.
  */
 class Probe implements Body {
-    private static final String SELF_EXECUTING = "protected_self-executing_component";
+    private static final Set<String> SELF_EXECUTING = Set.of(
+            "protected_self-executing_component",
+            "periodic_self-executing_component",
+            "background_self-executing_component");
     private static final String SELF_EXECUTION_API = "self-execution_api";
 
     final Stage stage;
@@ -38,7 +42,7 @@ class Probe implements Body {
             ports.put(port, new Port(this, port));
         }
         boolean executesItself =
-                declaration.policies().stream().anyMatch(p -> p.definition().equals(SELF_EXECUTING));
+                declaration.policies().stream().anyMatch(p -> SELF_EXECUTING.contains(p.definition()));
         execution = executesItself ? this::run : null;
     }
 
@@ -172,7 +176,7 @@ class Probe implements Body {
 
     @Override
     public Runnable getPolicyElement(String policy, String element) {
-        return SELF_EXECUTING.equals(policy) && SELF_EXECUTION_API.equals(element) ? execution : null;
+        return SELF_EXECUTION_API.equals(element) && policy != null && SELF_EXECUTING.contains(policy) ? execution : null;
     }
 
     private void run() {

@@ -1,0 +1,225 @@
+"""Scenarios of active components that are executed each period, or with a least distance, when they are called (10.5)."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Integer, message_interface
+from ucm_cts.adapters.contract.scenario import Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.harness.purposes.connections import MESSAGE, provided_end, required_end
+from ucm_cts.harness.purposes.derived.paced_policies import NAMES, OTHER_PORT, PORT, policy, purposes_about
+from ucm_cts.harness.purposes.scripts import TestPurpose
+
+_INSIDE, _GOT = "inside", "got"
+_PERIODIC, _SPORADIC = s.PERIODIC_ACTIVE, s.SPORADIC_ACTIVE
+
+_USUAL, _WIDE, _LONG = 50, 100, 300
+"""Periods in milliseconds. With the long one lateness shows."""
+
+_BURST = 5
+_MESSAGE = message_interface(Integer("ULONG"))
+_MESSAGE_PORT = "message.api"
+_INTERFACE = "numbers"
+
+_APART = {_PERIODIC: "2-10 2-11 2-12", _SPORADIC: "2-15 2-16 2-17"}
+_EACH_ONCE = {_PERIODIC: "2-08 2-09", _SPORADIC: "2-13 2-14"}
+
+
+def paced_call_purposes() -> list[TestPurpose]:
+    """Bursts, single calls, offsets, long executions, messages, phases, several components; of both policies."""
+    purposes = [_offsets()]
+    for definition in (_PERIODIC, _SPORADIC):
+        purposes += [of(definition) for of in (_bursts, _single, _held, _phases, _several)]
+        purposes += _messages(definition)
+    return purposes
+
+
+def _server(*policies: Policy, plan: dict[Hook, tuple[s.Action, ...]] | None = None) -> Declaration:
+    return Declaration((PORT, OTHER_PORT), policies=policies, plan=plan or {})
+
+
+def _scenario(server: Declaration, *steps: Step) -> Scenario:
+    """The server is called at ``api`` and ``aux``, started before ``steps`` and stopped after them."""
+    begin = (
+        s.AddComponent("server"),
+        s.GetPortElement("server", PORT, "api"),
+        s.GetPortElement("server", OTHER_PORT, "aux"),
+        s.Start(),
+    )
+    return Scenario({"server": server}, (*begin, *steps, s.Stop(), s.GetComponents()))
+
+
+def _calls(*refs: str, first: int = 1) -> tuple[Step, ...]:
+    """Each reference is called by a thread of its own."""
+    return tuple(s.Invoke(ref, first + n, thread=f"caller {first + n}") for n, ref in enumerate(refs))
+
+
+def _joins(count: int, first: int = 1) -> tuple[Step, ...]:
+    return tuple(s.Join(f"caller {first + n}") for n in range(count))
+
+
+def _both(definition: str, period: float, offset: float = 0) -> tuple[Policy, ...]:
+    return tuple(policy(definition, period, offset, port=port) for port in (PORT, OTHER_PORT))
+
+
+def _bursts(definition: str) -> TestPurpose:
+    """Five at once, on one port element, on two, one after the other, and twice."""
+    cases = []
+    server = _server(policy(definition, _USUAL))
+    one = (*_calls(*["api"] * _BURST), *_joins(_BURST))
+    cases.append(("one port", _scenario(server, *one)))
+    two = (*_calls("api", "aux", "api", "aux", "api"), *_joins(_BURST))
+    cases.append(("two ports", _scenario(_server(*_both(definition, _USUAL)), *two)))
+    cases.append(("after a while", _scenario(server, s.Pause(2 * _USUAL + 20), *one)))
+    again = (*one, s.Pause(_USUAL), *_calls("api", "api", first=11), *_joins(2, 11))
+    cases.append(("again", _scenario(server, *again)))
+    in_turn = tuple(s.Invoke("api", n) for n in range(1, _BURST + 1))
+    cases.append(("one after the other", _scenario(server, *in_turn)))
+    raising = _server(policy(definition, _USUAL), plan={"exchange": (s.RaiseError(),)})
+    cases.append(("calls that raise", _scenario(raising, *_calls("api", "api", "api"), *_joins(3))))
+    return purposes_about(f"{NAMES[definition]}/bursts", f"{_EACH_ONCE[definition]} {_APART[definition]}", *cases)
+
+
+def _single(definition: str) -> TestPurpose:
+    """Calls at several moments of a period, and with a long one."""
+    cases = []
+    server = _server(policy(definition, _WIDE))
+    for early, later in ((20, 30), (60, 20), (5, 90)):
+        steps = (s.Pause(early), *_calls("api"), s.Pause(later), *_calls("api", first=2), *_joins(2))
+        cases.append((f"after {early} and {early + later} ms", _scenario(server, *steps)))
+    slow = _server(policy(definition, _LONG))
+    steps = (*_calls("api"), *_joins(1), s.Pause(20), *_calls("api", first=2), *_joins(1, 2))
+    cases.append(("a long period", _scenario(slow, *steps)))
+    steps = (*_calls("api"), *_joins(1), s.Pause(_LONG + 40), *_calls("api", first=2), *_joins(1, 2))
+    cases.append(("a long period, and longer pause", _scenario(slow, *steps)))
+    unmanaged = (*_calls("aux", "aux"), *_joins(2), *_calls("api", first=3), *_joins(1, 3))
+    cases.append(("beside a port that is not managed", _scenario(server, *unmanaged)))
+    cases.append(("no call", _scenario(_server(*_both(definition, 10)), s.Pause(120))))
+    return purposes_about(f"{NAMES[definition]}/single calls", f"{_EACH_ONCE[definition]} {_APART[definition]}", *cases)
+
+
+def _offsets() -> TestPurpose:
+    """Calls wait from the start on."""
+    cases = []
+    for offset, period in ((0, _USUAL), (20, _USUAL), (180, _USUAL), (250, 30)):
+        server = _server(policy(_PERIODIC, period, offset))
+        cases.append((f"{offset} ms", _scenario(server, *_calls("api", "api"), *_joins(2))))
+    server = _server(policy(_PERIODIC, _USUAL, 60))
+    later = (s.Pause(200), *_calls("api", "api"), *_joins(2))
+    cases.append(("has passed", _scenario(server, *later)))
+    return purposes_about(f"{NAMES[_PERIODIC]}/offsets", "1-22 1-30 2-10", *cases)
+
+
+def _held(definition: str) -> TestPurpose:
+    """An execution is held across several periods while others wait."""
+    cases = []
+    plan: dict[Hook, tuple[s.Action, ...]] = {"exchange": (s.HoldAtGate(_INSIDE),)}
+    for name, policies, other in (
+        ("one port", (policy(definition, _USUAL),), "api"),
+        ("two ports", _both(definition, _USUAL), "aux"),
+    ):
+        steps = (
+            *_calls("api"),
+            s.ReachGate(_INSIDE),
+            *_calls(other, first=2),
+            s.Settle("caller 2"),
+            s.Pause(3 * _USUAL),
+            *_calls("api", first=3),
+            s.OpenGate(_INSIDE),
+            *_joins(3),
+        )
+        cases.append((name, _scenario(_server(*policies, plan=plan), *steps)))
+    own = _APART[definition].split()[0 if definition == _SPORADIC else 2]
+    return purposes_about(f"{NAMES[definition]}/long executions", f"2-19 {own}", *cases)
+
+
+def _messages(definition: str) -> list[TestPurpose]:
+    """An emitter pushes three messages: farther apart than a period, and at once where early ones are declared to wait."""
+    own, at_once = _EACH_ONCE[definition], "early-invocation=delayed" if definition == _SPORADIC else ""
+    return [
+        purposes_about(f"{NAMES[definition]}/messages", own, ("far apart", _pushed(definition, _USUAL + 20))),
+        purposes_about(f"{NAMES[definition]}/messages at once", own, ("three", _pushed(definition, 0)), under=at_once),
+    ]
+
+
+def _pushed(definition: str, between: int) -> Scenario:
+    """So many milliseconds pass between two messages; none if 0."""
+    receiver = Declaration(
+        (_MESSAGE_PORT,),
+        policies=(policy(definition, _USUAL, port=_MESSAGE_PORT),),
+        plan={"method": (s.HoldAtGate(_GOT), s.Answer(s.PUSH, ("ok",)))},
+        ports={_MESSAGE_PORT: _INTERFACE},
+    )
+    pushes = tuple(s.CallMethod("out.api", s.PUSH, (n,), given=n) for n in (11, 22, 33))
+    if not between:
+        pushes = tuple(s.CallMethod("out.api", s.PUSH, (n,)) for n in (11, 22, 33))
+    emitter = Declaration((PORT,), ("out.api",), plan={"exchange": pushes}, ports={"out.api": _INTERFACE})
+    told: list[Step] = [s.Invoke("tell", 1), s.ReachGate(_GOT, total=3)]
+    if between:
+        told = [
+            step
+            for n in (11, 22, 33)
+            for step in (s.Invoke("tell", n), s.ReachGate(_GOT, total=n // 11), s.Pause(between))
+        ]
+    steps = (
+        s.AddComponent("receiver"),
+        s.AddComponent("emitter"),
+        s.Link(MESSAGE, _INTERFACE, "line"),
+        provided_end(MESSAGE, "line", "receiver", _MESSAGE_PORT),
+        required_end(MESSAGE, "line", "emitter"),
+        s.GetPortElement("emitter", PORT, "tell"),
+        s.OpenGate(_GOT),
+        s.Start(),
+        *told,
+        s.Stop(),
+    )
+    return Scenario({"receiver": receiver, "emitter": emitter}, steps, interfaces={_INTERFACE: _MESSAGE})
+
+
+def _phases(definition: str) -> TestPurpose:
+    """The component is stopped while calls wait, and started again."""
+    server = _server(policy(definition, _LONG))
+    waiting = _calls("api", "api", "api")
+    pending = (s.Invoke("api", 9, thread="first"), s.Pause(20), *waiting, s.Pause(20))
+    stopped = (*pending, s.Stop(), s.Join("first"), *_joins(3), s.Pause(_LONG + 50))
+    cases = [("stop while calls wait", _scenario(server, *stopped))]
+    removed = (*stopped[:-1], s.RemoveComponent("server"), s.Pause(_LONG + 50))
+    cases.append(("removal", _scenario(server, *removed)))
+    quick = _server(*_both(definition, _USUAL, 20))
+    once = functools.partial(_burst_of, ("api", "aux", "api"))
+    again = (*once(1), s.Stop(), s.Pause(_USUAL + 10), s.Start(), *once(11), s.Stop(), s.Start(), *once(21))
+    cases.append(("restart", _scenario(quick, *again)))
+    return purposes_about(f"{NAMES[definition]}/phases", f"2-20 2-21 {_EACH_ONCE[definition]}", *cases)
+
+
+def _burst_of(refs: Sequence[str], first: int) -> tuple[Step, ...]:
+    return (*_calls(*refs, first=first), *_joins(len(refs), first))
+
+
+def _several(definition: str) -> TestPurpose:
+    """Two components with different periods and priorities, and two instances of one."""
+    cases = []
+    for fast, slow in ((1, 255), (255, 1), (9, 9)):
+        components = {
+            "fast": _server(policy(definition, _USUAL, priority=fast)),
+            "slow": _server(policy(definition, 2 * _USUAL, priority=slow)),
+        }
+        steps = (*_added("fast"), *_added("slow"), s.Start(), *_burst_of(["fast", "slow"] * 3, 1), s.Stop())
+        cases.append((f"priorities {fast} and {slow}", Scenario(components, steps)))
+    server = {"server": _server(policy(definition, _USUAL))}
+    steps = (
+        *_added("server"),
+        *_added("server", "second"),
+        s.Start(),
+        *_burst_of(["server", "second"] * 3, 1),
+        s.Stop(),
+    )
+    cases.append(("two instances", Scenario(server, steps)))
+    return purposes_about(f"{NAMES[definition]}/several", f"1-27 {_EACH_ONCE[definition]}", *cases)
+
+
+def _added(component: str, name: str = "") -> tuple[Step, ...]:
+    """Added under ``name``, which also names a reference to its port element."""
+    return (s.AddComponent(component, bind=name), s.GetPortElement(name or component, PORT, name or component))

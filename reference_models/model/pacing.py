@@ -1,0 +1,100 @@
+"""When an active component of 10.5 may be executed at the earliest and must be at the latest, under each reading of the text."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.paced_events import PacedExecution, PacedPhase
+from ucm_cts.reference_models.model.paced_phases import granularity, lateness
+
+READINGS = ("one-a-period", "all-a-period", "at-once-when-idle")
+"""The readings of ``periodic-active``."""
+
+_SLACK = 4
+"""A least distance is measured between entries, which come a little after the framework has decided: by this part of a period."""
+
+
+class Untimely(NamedTuple):
+    """An execution that came ``by`` nanoseconds too early or too late, after the execution ``after`` if that is why."""
+
+    execution: PacedExecution
+    by: int
+    after: PacedExecution | None = None
+
+
+def groups(runtime: ObservedRuntime, phase: PacedPhase) -> list[list[PacedExecution]]:
+    """The executions that share instants: all of the component, or those of each port element if that is declared."""
+    if runtime.ics.reading("paced-by") != "port":
+        return [phase.executions]
+    ports = dict.fromkeys(e.enter.port for e in phase.executions)
+    return [[e for e in phase.executions if e.enter.port == port] for port in ports]
+
+
+def readings(runtime: ObservedRuntime) -> tuple[str, ...]:
+    """The readings of ``periodic-active`` that the vendor's statement permits."""
+    return tuple(reading for reading in READINGS if runtime.ics.permits("periodic-active", reading))
+
+
+def too_early(
+    runtime: ObservedRuntime, phase: PacedPhase, executions: Sequence[PacedExecution], reading: str
+) -> Untimely | None:
+    """The first of ``executions`` that a periodic component cannot have made yet under ``reading``."""
+    least = granularity(runtime)
+    if reading == "at-once-when-idle":
+        return too_close(runtime, phase, executions)
+    number = -1
+    before: PacedExecution | None = None
+    for execution in executions:
+        asked = max(0, -((phase.first(latest=True) - execution.asked) // phase.period))
+        number = max(number + (reading == "one-a-period"), asked, 0)
+        due = phase.first(latest=False) + number * phase.period - least
+        if execution.t < due:
+            return Untimely(execution, due - execution.t, before)
+        before = execution
+    return None
+
+
+def too_close(runtime: ObservedRuntime, phase: PacedPhase, executions: Sequence[PacedExecution]) -> Untimely | None:
+    """The first of ``executions`` that came too soon after those before it."""
+    slack = phase.period // _SLACK + granularity(runtime)
+    from_end = phase.policy.definition == s.SPORADIC_ACTIVE and runtime.ics.reading("sporadic-measure") == "end"
+    for j, execution in enumerate(executions):
+        for i in range(j):
+            earlier = executions[i]
+            since = earlier.left if from_end and i == j - 1 else earlier.t
+            due = since + (j - i) * phase.period - slack
+            if execution.t < due:
+                return Untimely(execution, due - execution.t, executions[j - 1])
+    return None
+
+
+def too_late(
+    runtime: ObservedRuntime, phase: PacedPhase, executions: Sequence[PacedExecution]
+) -> Iterator[tuple[PacedExecution, bool, int]]:
+    """Each of ``executions``, whether it waited for others, and by how many nanoseconds it came later than it must (0 if not)."""
+    late = lateness(runtime)
+    is_sporadic = phase.policy.definition == s.SPORADIC_ACTIVE
+    from_end = is_sporadic and runtime.ics.reading("sporadic-measure") == "end"
+    for j, execution in enumerate(executions):
+        asked = min(e.asked for e in executions[j:] if e.asked <= execution.t)
+        free = max(asked, phase.first(latest=True), phase.busy_until(execution.t))
+        waited = False
+        if j:
+            before = executions[j - 1]
+            since = before.left if from_end else before.t
+            waited = execution.asked < since + phase.period
+            free = max(free, since + phase.period if is_sporadic else since)
+        due = free if is_sporadic else free + phase.period
+        if phase.policy.definition == s.PERIODIC_ACTIVE and runtime.ics.reading("first-period") == "offset-plus-period":
+            due += phase.period
+        yield execution, waited, max(0, execution.t - due - late)
+
+
+def in_burst(executions: Iterable[PacedExecution], period: int) -> bool:
+    """Were two of them asked for within one period?"""
+    asked = sorted(e.asked for e in executions)
+    return any(later - earlier < period for earlier, later in itertools.pairwise(asked))

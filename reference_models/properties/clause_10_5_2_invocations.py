@@ -1,0 +1,198 @@
+"""Properties about when active components of 10.5 are executed: every period, or with a least distance, when they are called (10.5.2)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.reference_models.conclusions import Conclusions, takes
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model import pacing
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.paced_events import Invocation, PacedExecution, PacedPhase
+from ucm_cts.reference_models.model.paced_phases import paced_phases, shown
+from ucm_cts.reference_models.properties.clause_10_5_2 import of_phase
+from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+_TRIGGERED = {s.PERIODIC_ACTIVE: "R-10.5.2-08", s.SPORADIC_ACTIVE: "R-10.5.2-13"}
+_ONCE = {s.PERIODIC_ACTIVE: "R-10.5.2-09", s.SPORADIC_ACTIVE: "R-10.5.2-14"}
+_EVERY_PERIOD, _NOT_MORE_OFTEN, _IN_THE_END = "R-10.5.2-10", "R-10.5.2-11", "R-10.5.2-12"
+_APART, _AT_ONCE, _NO_SUM = "R-10.5.2-15", "R-10.5.2-16", "R-10.5.2-17"
+_RESTARTS = "R-10.5.2-21"
+_ACTIVE = (s.PERIODIC_ACTIVE, s.SPORADIC_ACTIVE)
+
+
+@property_at("closed", *_TRIGGERED.values(), feature="paced")
+def invoked_when_executed(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """An active component is executed because a managed port element of it is called, or gets a message."""
+    for phase in paced_phases(runtime, *_ACTIVE):
+        requirement = _TRIGGERED[phase.policy.definition]
+        for execution in phase.executions:
+            if execution.invocation is not None:
+                yield check.kept(requirement)
+                continue
+            yield check.fail(
+                "no caller",
+                expected=f"'{phase.member.lane}' is executed because it is called",
+                observed=f"its {execution.enter.port} was entered without a call",
+                at=(execution.enter.n,),
+                requirement=requirement,
+            )
+            break
+
+
+@property_at("closed", *_ONCE.values(), feature="paced")
+def executed_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """Each call enters once, with its own value and result; an early one of a sporadic component may be refused."""
+    for phase in paced_phases(runtime, *_ACTIVE):
+        requirement = _ONCE[phase.policy.definition]
+        for invocation in phase.invocations:
+            executions = [e for e in invocation.executions if e.enter.body == phase.member.body]
+            if len(executions) > 1:
+                yield _other_times(check, phase, invocation, len(executions), requirement)
+            elif invocation.over < phase.until and invocation.n > phase.begin:
+                yield from _carried_out(check, runtime, phase, invocation, requirement)
+
+
+def _carried_out(
+    check: Property, runtime: ObservedRuntime, phase: PacedPhase, invocation: Invocation, requirement: str
+) -> Conclusions:
+    operation = next((o for o in runtime.interactions.operations if o.begin.n == invocation.n), None)
+    end = operation.end if operation is not None else None
+    if not invocation.executions:
+        if isinstance(end, Return):
+            yield _other_times(check, phase, invocation, 0, requirement)
+        elif isinstance(end, Raise) and not phase.member.raises("exchange"):
+            is_early = phase.policy.definition == s.SPORADIC_ACTIVE and _is_early(phase, invocation)
+            if not is_early or not (yield from takes(runtime, "early-invocation", "refused")):
+                yield _other_times(check, phase, invocation, 0, requirement)
+        return
+    execution = invocation.executions[0]
+    exit_ = next((x for e, x in invocation.call.entries if e is execution.enter), None)
+    if (
+        isinstance(end, Return)
+        and exit_ is not None
+        and (end.value, execution.enter.value)
+        != (
+            exit_.value,
+            invocation.call.value,
+        )
+    ):
+        yield check.fail(
+            "otherwise",
+            expected=f"exchange({invocation.call.value}) executes '{phase.member.lane}' with that value and brings back its result",
+            observed=f"it was entered with {execution.enter.value}, and {end.value} came back",
+            at=(invocation.n, execution.enter.n, end.n),
+            requirement=requirement,
+        )
+        return
+    yield check.kept(requirement)
+
+
+def _is_early(phase: PacedPhase, invocation: Invocation) -> bool:
+    """Was it made before the least distance had passed since another invocation that was made or executed before it?"""
+    moments = [e.t for e in phase.executions if e.t <= invocation.t + phase.period]
+    moments += [e.left for e in phase.executions if e.t <= invocation.t]
+    moments += [i.t for i in phase.invocations if i is not invocation and i.n < invocation.n]
+    return any(invocation.t - moment < phase.period + phase.period // 4 for moment in moments)
+
+
+def _other_times(check: Property, phase: PacedPhase, invocation: Invocation, times: int, requirement: str) -> Finding:
+    return check.fail(
+        "not executed" if not times else "more than once",
+        expected=f"the call through {invocation.port} executes '{phase.member.lane}' once",
+        observed=f"it executed it {times} times" if times else "it came back and had not executed it",
+        at=(invocation.n, *(e.enter.n for e in invocation.executions)),
+        requirement=requirement,
+    )
+
+
+@property_at("closed", _EVERY_PERIOD, _NOT_MORE_OFTEN, _RESTARTS, feature="paced", timed=True)
+def executed_every_period(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A periodic active component is executed at the instants of offset and period, under one reading of the text."""
+    readings = pacing.readings(runtime)
+    for phase in paced_phases(runtime, s.PERIODIC_ACTIVE):
+        for executions in pacing.groups(runtime, phase):
+            found = [pacing.too_early(runtime, phase, executions, reading) for reading in readings]
+            if not executions:
+                continue
+            worst = max((one for one in found if one is not None), key=lambda one: one.execution.t, default=None)
+            if worst is None or None in found:
+                yield check.kept()
+                if pacing.in_burst(executions, phase.period):
+                    yield check.kept(_NOT_MORE_OFTEN)
+                if phase.number:
+                    yield check.kept(_RESTARTS)
+                continue
+            is_close = worst.after is not None and worst.execution.t - worst.after.t < phase.period * 3 // 4
+            yield _untimely(check, phase, worst, of_phase(phase, _NOT_MORE_OFTEN if is_close else _EVERY_PERIOD))
+
+
+def _untimely(check: Property, phase: PacedPhase, worst: pacing.Untimely, requirement: str) -> Finding:
+    before = (worst.after.enter.n,) if worst.after is not None else ()
+    return check.fail(
+        "early",
+        expected=f"'{phase.member.lane}' is executed each {shown(phase.period)}",
+        observed=f"it was executed {shown(worst.by)} too early, at the latest of the moments that the text can be read to permit",
+        at=(*before, worst.execution.enter.n),
+        requirement=requirement,
+    )
+
+
+@property_at("closed", _EVERY_PERIOD, _IN_THE_END, _RESTARTS, feature="paced", timed=True)
+def executed_in_the_end(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A call is executed at the next instant, or at one of the next if others came before it."""
+    for phase in paced_phases(runtime, s.PERIODIC_ACTIVE):
+        for executions in pacing.groups(runtime, phase):
+            for execution, waited, late in pacing.too_late(runtime, phase, executions):
+                requirement = _IN_THE_END if waited else _EVERY_PERIOD
+                if not late:
+                    yield check.kept(requirement)
+                    continue
+                yield _late(check, phase, execution, late, of_phase(phase, requirement))
+                break
+
+
+@property_at("closed", _APART, _RESTARTS, feature="paced", timed=True)
+def sporadic_apart(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """Executions of a sporadic component are a least distance apart."""
+    for phase in paced_phases(runtime, s.SPORADIC_ACTIVE):
+        for executions in pacing.groups(runtime, phase):
+            close = pacing.too_close(runtime, phase, executions)
+            if close is None:
+                if pacing.in_burst(executions, phase.period):
+                    yield check.kept()
+                if phase.number and executions:
+                    yield check.kept(_RESTARTS)
+                continue
+            yield check.fail(
+                "close",
+                expected=f"executions of '{phase.member.lane}' are {shown(phase.period)} apart, each from those before it",
+                observed=f"one came {shown(close.by)} too early",
+                at=(*((close.after.enter.n,) if close.after is not None else ()), close.execution.enter.n),
+                requirement=of_phase(phase, _APART),
+            )
+
+
+@property_at("closed", _AT_ONCE, _NO_SUM, _RESTARTS, feature="paced", timed=True)
+def sporadic_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A call of a sporadic component is executed at once, or when the least distance has passed, and no later."""
+    for phase in paced_phases(runtime, s.SPORADIC_ACTIVE):
+        for executions in pacing.groups(runtime, phase):
+            for execution, waited, late in pacing.too_late(runtime, phase, executions):
+                requirement = _NO_SUM if waited else _AT_ONCE
+                if not late:
+                    yield check.kept(requirement)
+                    continue
+                yield _late(check, phase, execution, late, of_phase(phase, requirement))
+                break
+
+
+def _late(check: Property, phase: PacedPhase, execution: PacedExecution, late: int, requirement: str) -> Finding:
+    asked = (execution.invocation.n,) if execution.invocation is not None else ()
+    return check.fail(
+        "late",
+        expected=f"a call of '{phase.member.lane}' is executed when its policy permits it, or as much later as declared",
+        observed=f"it was executed {shown(late)} later than that",
+        at=(*asked, execution.enter.n),
+        requirement=requirement,
+    )
