@@ -66,7 +66,8 @@ std::shared_ptr<lwucm::PortElementObject> stand_in(const std::string&,
 lwucm::Implementation implementation(const ucm_cts::ShapedImplementation<Lwucm>& one) {
     lwucm::Policies policies = {{}, one.get_policy_element, stand_in};
     for (const ucm_cts::Policy& policy : one.policies) {
-        policies.applied.push_back({policy.definition, policy.port, policy.parameters, policy.element});
+        policies.applied.push_back(
+            {policy.definition, policy.port, policy.parameters, policy.element, policy.settings});
     }
     std::map<std::string, lwucm::InterfacePtr> interfaces;
     for (const auto& interface : one.interfaces) {

@@ -1,8 +1,9 @@
-// Technical policies of component implementations (10.1.3, 10.1.4), and what generated code adds so that they can be
+// Technical policies of component implementations (10.1.3, 10.1.4, 10.5), and what generated code adds so that they can be
 // applied.
 #ifndef LWUCM_POLICIES_HPP
 #define LWUCM_POLICIES_HPP
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -21,12 +22,14 @@ class component_execution_intf : public PortElementObject {
 
 /// `port` is the port element that the policy manages, empty if it is a policy of the component. `element` is the name
 /// under which the component gets the port element that it requires by the policy; if it is empty, that of the policy
-/// and that of its port element, as in `clock_clock_api`.
+/// and that of its port element, as in `clock_clock_api`. `settings` are the parameters of policies of 10.5, times in
+/// microseconds.
 struct Policy {
     std::string definition;
     std::string port;
     std::map<std::string, std::string> parameters;
     std::string element;
+    std::map<std::string, std::int64_t> settings;
 };
 
 /// Stands between callers and a port element.

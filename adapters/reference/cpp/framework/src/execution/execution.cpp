@@ -38,15 +38,22 @@ void Execution::make_guards(ComponentObject& body) {
         active_guard_ = std::make_shared<OnExecutor>(monitor, executor);
     }
     guard_ = chosen == Options::Executor::caller ? monitor : active_guard_;
+    if (demands_.protection == Protection::active && demands_.pacing.kind != Pacing::Kind::none) {
+        active_guard_ = paced_guard_ = std::make_shared<PacedGuard>(monitor, active_guard_, demands_.pacing);
+    }
     if (demands_.protection == Protection::self_executing) {
         std::shared_ptr<component_execution_intf> component;
         if (implementation_->policies.get_policy_element) {
-            component = implementation_->policies.get_policy_element(body, SELF_EXECUTING, SELF_EXECUTION_API);
+            component = implementation_->policies.get_policy_element(body, demands_.execution, SELF_EXECUTION_API);
         }
         if (!component) {
             throw UCM_ERROR("the component gives no " + SELF_EXECUTION_API);
         }
-        self_execution_ = Parts::self_execution(std::move(component), guard_);
+        if (demands_.pacing.kind == Pacing::Kind::none) {
+            self_execution_ = Parts::self_execution(std::move(component), guard_);
+        } else {
+            self_execution_.reset(new PacedSelfExecution(std::move(component), guard_, demands_.pacing));
+        }
     }
 }
 
@@ -96,12 +103,18 @@ std::shared_ptr<const PortTraces> Execution::traces_of(const std::string& port) 
 }
 
 void Execution::begin() {
+    if (paced_guard_) {
+        paced_guard_->begin();
+    }
     if (self_execution_) {
         self_execution_->begin();
     }
 }
 
 void Execution::end() {
+    if (paced_guard_) {
+        paced_guard_->end();
+    }
     if (self_execution_) {
         self_execution_->end();
     }

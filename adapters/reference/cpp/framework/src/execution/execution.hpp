@@ -68,6 +68,7 @@ class Execution {
     std::shared_ptr<Executor> own_executor_;
     std::shared_ptr<Guard> guard_;         // of the component
     std::shared_ptr<Guard> active_guard_;  // of the port elements that an active policy manages
+    std::shared_ptr<PacedGuard> paced_guard_;  // the same, with a policy of 10.5
     std::unique_ptr<SelfExecution> self_execution_;
     std::mutex mutex_;
     std::map<std::string, Way> ways_in_;

@@ -18,8 +18,35 @@ const std::string PORT_TRACE = "port_trace";
 const std::string METHODS_TO_TRACE = "methods_to_trace";
 const std::string LOG_SEVERITY = "log_severity";
 
+const std::int64_t HIGHEST_PRIORITY = 1;
+const std::int64_t LOWEST_PRIORITY = 255;
+const std::int64_t LONGEST = std::int64_t(1000) * 3600 * 1000 * 1000;  // 1,000 hours
+
+/// A policy of 10.5: what it does, and its parameters.
+struct Extension {
+    Pacing::Kind kind;
+    std::string period;
+    std::string offset;
+    std::string priority;
+};
+
+const std::map<std::string, Extension>& extensions() {
+    static const std::map<std::string, Extension> all = {
+        {"periodic_self-executing_component", {Pacing::Kind::periodic, "psec_period", "psec_offset", "psec_priority"}},
+        {"background_self-executing_component", {Pacing::Kind::background, "", "bsec_offset", "bsec_priority"}},
+        {"periodic_protected_active_component", {Pacing::Kind::periodic, "ppac_period", "ppac_offset", "ppac_priority"}},
+        {"sporadic_protected_active_component", {Pacing::Kind::sporadic, "spac_min_period", "", "spac_priority"}}};
+    return all;
+}
+
 const std::map<std::string, Protection>& protections() {
     static const std::map<std::string, Protection> all = {{SELF_EXECUTING, Protection::self_executing},
+                                                          {"periodic_self-executing_component",
+                                                           Protection::self_executing},
+                                                          {"background_self-executing_component",
+                                                           Protection::self_executing},
+                                                          {"periodic_protected_active_component", Protection::active},
+                                                          {"sporadic_protected_active_component", Protection::active},
                                                           {"protected_active_component", Protection::active},
                                                           {"protected_passive_component", Protection::passive},
                                                           {"unprotected_passive_component", Protection::none}};
@@ -61,7 +88,38 @@ class Reading {
             throw UCM_ERROR("a component has one execution policy");
         }
         execution_ = policy.definition;
+        demands_.execution = policy.definition;
         demands_.protection = protection;
+        read_pacing(policy);
+    }
+
+    void read_pacing(const Policy& policy) {
+        const auto found = extensions().find(policy.definition);
+        std::size_t read = 0;
+        if (found != extensions().end()) {
+            const Extension& extension = found->second;
+            demands_.pacing.kind = extension.kind;
+            demands_.pacing.period = std::chrono::microseconds(setting(policy, extension.period, 1, LONGEST, read));
+            demands_.pacing.offset = std::chrono::microseconds(setting(policy, extension.offset, 0, LONGEST, read));
+            setting(policy, extension.priority, HIGHEST_PRIORITY, LOWEST_PRIORITY, read);
+        }
+        if (read != policy.settings.size()) {
+            throw UCM_ERROR("policy '" + policy.definition + "' has other parameters");
+        }
+    }
+
+    /// The value of a parameter, 0 if the policy has none of that kind; counts those that were `read`.
+    static std::int64_t setting(const Policy& policy, const std::string& name, std::int64_t least, std::int64_t most,
+                                std::size_t& read) {
+        if (name.empty()) {
+            return 0;
+        }
+        const auto found = policy.settings.find(name);
+        if (found == policy.settings.end() || found->second < least || found->second > most) {
+            throw UCM_ERROR("policy '" + policy.definition + "' needs a value for " + name);
+        }
+        ++read;
+        return found->second;
     }
 
     void read_service(const Policy& policy) {

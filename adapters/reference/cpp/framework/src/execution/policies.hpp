@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "execution/pacing.hpp"
 #include "lwucm/container_services.hpp"
 #include "lwucm/repository.hpp"
 
@@ -29,7 +30,9 @@ struct RequiredService {
 };
 
 struct Demands {
+    std::string execution;  // definition of the execution policy
     Protection protection = Protection::none;
+    Pacing pacing;
     std::set<std::string> active_ports;
     std::vector<RequiredService> services;
     std::map<std::string, std::vector<PortTrace>> traces;  // by port element

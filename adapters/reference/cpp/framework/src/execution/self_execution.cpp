@@ -26,14 +26,18 @@ void SelfExecution::end() {
     }
 }
 
+void SelfExecution::run() {
+    try {
+        guard_->call([this] { component_->run(); });
+    } catch (...) {  // there is no caller to pass it to
+    }
+}
+
 void SelfExecution::work() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (!ending_) {
         lock.unlock();
-        try {
-            guard_->call([this] { component_->run(); });
-        } catch (...) {  // there is no caller to pass it to
-        }
+        run();
         lock.lock();
         changed_.wait_for(lock, std::chrono::milliseconds(2), [this] { return ending_; });
     }

@@ -26,7 +26,11 @@ class SelfExecution {
     virtual void end();
 
   protected:
-    void work();
+    /// What the thread does.
+    virtual void work();
+
+    /// Once, however it comes back.
+    void run();
 
     const std::shared_ptr<component_execution_intf> component_;
     const std::shared_ptr<Guard> guard_;
