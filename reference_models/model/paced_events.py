@@ -110,6 +110,16 @@ class PacedPhase:
     def _time(self, names: Mapping[str, str]) -> int:
         return self.policy.settings.get(names.get(self.policy.definition, ""), 0) * MICROSECOND
 
+    @property
+    def overrun(self) -> int:
+        """The number of the first execution that lasted for a period or longer, or after which another one of the component did; that of
+        executions if there is none.
+        """
+        lasting = (k for k, one in enumerate(self.executions) if one.left - one.t >= self.period)
+        kept_out = [one.enter.t for one in self.others if not one.over or one.left - one.enter.t >= self.period]
+        before = (sum(one.t < moment for one in self.executions) for moment in kept_out)
+        return min(next(lasting, len(self.executions)), *before, len(self.executions))
+
     def first(self, latest: bool) -> int:
         """The earliest instant, or the latest one, at which the offset has passed."""
         return self.origins[latest] + self.offset

@@ -165,9 +165,10 @@ def each_has_its_period(check: Property, runtime: ObservedRuntime) -> Conclusion
 
 
 def _rate(phase: PacedPhase) -> Iterator[int]:
-    """The usual distance of its runs, if there are enough."""
-    if len(phase.executions) > _ENOUGH:
-        yield round(statistics.median(b.t - a.t for a, b in itertools.pairwise(phase.executions)))
+    """The usual distance of its runs, until one of them lasted for a period, if there are enough."""
+    runs = phase.executions[: phase.overrun]
+    if len(runs) > _ENOUGH:
+        yield round(statistics.median(b.t - a.t for a, b in itertools.pairwise(runs)))
 
 
 @property_at("closed", _PRIORITY_CHANGES_NOTHING, feature="paced", timed=True)

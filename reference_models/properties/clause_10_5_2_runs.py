@@ -39,12 +39,6 @@ def _shift(runtime: ObservedRuntime, phase: PacedPhase) -> int:
     return phase.period if runtime.ics.reading("first-period") == "offset-plus-period" else 0
 
 
-def _overrun(phase: PacedPhase) -> int:
-    """The number of the first run that lasted for a period or longer; that of runs if none did."""
-    runs = phase.executions
-    return next((k for k, run in enumerate(runs) if run.left - run.t >= phase.period), len(runs))
-
-
 @property_at("closed", _NOT_MORE_OFTEN, _RESTARTS, feature="paced", timed=True)
 def runs_not_more_often(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Run k is not entered before k periods have passed after the offset."""
@@ -76,7 +70,7 @@ def runs_at_the_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """The usual distance of many runs is the period."""
     chained = runtime.ics.reading("period-anchor") == "chained"
     for phase in paced_phases(runtime, s.PERIODIC_SELF_EXECUTING):
-        runs = phase.executions[: _overrun(phase)]
+        runs = phase.executions[: phase.overrun]
         if len(runs) < _MANY:
             continue
         usual = statistics.median(later.t - earlier.t for earlier, later in itertools.pairwise(runs))
@@ -107,7 +101,7 @@ def runs_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
             continue
         for k, run in enumerate(runs[1:], 1):
             if run.t > _latest(runtime, phase, k) + late:
-                on_grid = k <= _overrun(phase)
+                on_grid = k <= phase.overrun
                 yield _late(check, phase, run, k, of_phase(phase, _REPEATS if on_grid else _GOES_ON))
                 break
         else:
@@ -126,7 +120,7 @@ def _latest(runtime: ObservedRuntime, phase: PacedPhase, k: int) -> int:
     following = max(before.left, before.t) + phase.period
     moment = phase.executions[k].t if k < len(phase.executions) else phase.ended_at
     following = max(following, phase.busy_until(moment))
-    if k > _overrun(phase) or phase.others or runtime.ics.reading("period-anchor") == "chained":
+    if k > phase.overrun or phase.others or runtime.ics.reading("period-anchor") == "chained":
         return following
     return max(grid, before.left)
 
@@ -157,7 +151,7 @@ def missed_runs(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """What follows a run that lasted for several periods is as declared."""
     reading = runtime.ics.reading("period-overrun")
     for phase in paced_phases(runtime, s.PERIODIC_SELF_EXECUTING):
-        k = _overrun(phase)
+        k = phase.overrun
         if k + 1 >= len(phase.executions) or reading not in ("queued", "skipped", "merged"):
             continue
         held, following = phase.executions[k], phase.executions[k + 1 :]

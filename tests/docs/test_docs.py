@@ -276,8 +276,15 @@ def test_example_scenario(here: Path) -> None:
     assert set(script.exercises) <= set(Monitor(load_life_cycle()).judge(scenario, trace).exercises)
 
 
-@pytest.mark.parametrize(("page", "example"), [("request-response", "requests.yaml"), ("shared-data", "shared.yaml")])
-def test_guide_to_a_part_of_extensions(here: Path, page: str, example: str) -> None:
+@pytest.mark.parametrize(
+    ("page", "clause", "example"),
+    [
+        ("request-response", "10.4.1", "requests.yaml"),
+        ("shared-data", "10.4.2", "shared.yaml"),
+        ("execution-policies", "10.5", "paced.yaml"),
+    ],
+)
+def test_guide_to_a_part_of_extensions(here: Path, page: str, clause: str, example: str) -> None:
     write_files(f"docs/{page}.md")
     (replayed,) = [c for c in commands("ucm-cts replay") if example in c]
     outcome = ucm_cts(*replayed.split()[1:])
@@ -288,7 +295,6 @@ def test_guide_to_a_part_of_extensions(here: Path, page: str, example: str) -> N
         (answered,) = driver.run([("an example", to_scenario(script))])
     judged = Monitor(load_life_cycle()).judge(answered.disguised, answered.trace)
     assert set(script.exercises) <= set(judged.exercises)
-    clause = {"request-response": "10.4.1", "shared-data": "10.4.2"}[page]
     (ran,) = [c for c in commands("ucm-cts run") if f"--profile extensions -k {clause}" in c]
     assert ucm_cts(*ran.split()[1:], "--explore", "0s").status == 0
     assert report_of(here / "ucm-cts-report")["profile"] == "extensions"
