@@ -83,6 +83,7 @@ class PacedExecutor:
         self._changed = threading.Condition()
         self._waiting: list[Invocation] = []
         self._is_open = True
+        self._running = threading.RLock()
         threading.Thread(target=self._serve, daemon=True).start()
 
     def execute(self, port: str, work: Callable[[], T]) -> T:
@@ -101,13 +102,15 @@ class PacedExecutor:
         return outcome.result()
 
     def end(self) -> None:
-        """Execute no more; the callers that wait get ``UcmError``."""
+        """Execute no more; the callers that wait get ``UcmError``. An execution that has begun is waited for."""
         with self._changed:
             self._is_open = False
             refused, self._waiting = self._waiting, []
             self._changed.notify()
         for invocation in refused:
             invocation.fail(pm.UcmError("the component is being stopped"))
+        with self._running:
+            pass
 
     def _admit(self, invocation: Invocation) -> None:
         if not self._is_open:
@@ -123,7 +126,11 @@ class PacedExecutor:
 
     def _serve(self) -> None:
         while invocation := self._next():
-            invocation.work()
+            with self._running:
+                if self._is_open:
+                    invocation.work()
+                else:
+                    invocation.fail(pm.UcmError("the component is being stopped"))
 
     def _next(self) -> Invocation | None:
         """The next invocation, when it is due; None at the end."""

@@ -199,7 +199,7 @@ family(
     "pace_class",
     {
         "executes_periodic_ones_half_as_often": Row(
-            "R-10.5.2-12", "The period of active components is twice as long.", _times(2, False), also=_PERIODIC
+            "R-10.5.2-10", "The period of active components is twice as long.", _times(2, False), also=_PERIODIC
         ),
         "executes_periodic_ones_twice_as_often": Row(
             "R-10.5.2-11", "The period of active components is half as long.", _times(0.5, False), also=_PERIODIC
@@ -244,6 +244,12 @@ family(
             "R-10.5.2-10",
             "A call of a periodic active component waits for the instant after the next.",
             _periodic(lambda pace, asked: _usual(pace, asked + pace.period)),
+            also=_PERIODIC,
+        ),
+        "keeps_those_behind_waiting": Row(
+            "R-10.5.2-12",
+            "A call of a periodic active component that comes before another one was executed waits for 0.2 seconds more.",
+            _periodic(lambda pace, asked: _usual(pace, asked) + (0.2 if asked < pace.entered_at else 0)),
             also=_PERIODIC,
         ),
         "keeps_no_distance": Row(

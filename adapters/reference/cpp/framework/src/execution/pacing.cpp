@@ -42,10 +42,25 @@ void PacedGuard::call(const std::function<void()>& code) {
         execute_in_turn(lock, code);
         return;
     }
+    const std::uint64_t phase = phase_;
     await_instant(lock);
     lock.unlock();
-    inner_->call(code);
+    enter(phase, code);
 }
+
+void PacedGuard::enter(std::uint64_t phase, const std::function<void()>& code) {
+    inner_->call([&] {
+        {
+            std::lock_guard<std::mutex> lock(mutex_);
+            if (is_over(phase)) {  // it was stopped before the component was free
+                throw UCM_ERROR("the component is not operational");
+            }
+        }
+        code();
+    });
+}
+
+bool PacedGuard::is_over(std::uint64_t phase) const { return !operational_ || phase_ != phase; }
 
 void PacedGuard::begin() {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -64,7 +79,7 @@ void PacedGuard::end() {
 
 void PacedGuard::await(std::unique_lock<std::mutex>& lock, Clock::time_point moment) {
     const std::uint64_t phase = phase_;
-    if (!operational_ || changed_.wait_until(lock, moment, [&] { return !operational_ || phase_ != phase; })) {
+    if (is_over(phase) || changed_.wait_until(lock, moment, [&] { return is_over(phase); })) {
         throw UCM_ERROR("the component is not operational");
     }
 }
@@ -81,9 +96,8 @@ void PacedGuard::await_instant(std::unique_lock<std::mutex>& lock) {
 void PacedGuard::execute_in_turn(std::unique_lock<std::mutex>& lock, const std::function<void()>& code) {
     const std::uint64_t phase = phase_;
     const std::uint64_t ticket = next_ticket_++;
-    const auto is_over = [&] { return !operational_ || phase_ != phase; };
-    changed_.wait(lock, [&] { return is_over() || ticket == admitted_; });
-    if (is_over()) {
+    changed_.wait(lock, [&] { return is_over(phase) || ticket == admitted_; });
+    if (is_over(phase)) {
         throw UCM_ERROR("the component is not operational");
     }
     await(lock, free_from_);
@@ -97,7 +111,7 @@ void PacedGuard::execute_in_turn(std::unique_lock<std::mutex>& lock, const std::
         changed_.notify_all();
     };
     try {
-        inner_->call(code);
+        enter(phase, code);
     } catch (...) {
         leave();
         throw;

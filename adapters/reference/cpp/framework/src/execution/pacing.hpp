@@ -52,6 +52,8 @@ class PacedGuard final : public Guard {
   private:
     typedef std::chrono::steady_clock Clock;
 
+    bool is_over(std::uint64_t phase) const;
+    void enter(std::uint64_t phase, const std::function<void()>& code);
     void await_instant(std::unique_lock<std::mutex>& lock);
     void execute_in_turn(std::unique_lock<std::mutex>& lock, const std::function<void()>& code);
     void await(std::unique_lock<std::mutex>& lock, Clock::time_point moment);
