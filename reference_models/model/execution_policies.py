@@ -39,6 +39,9 @@ CALL_EXCLUSIONS = (
 EXCLUSIONS = (_RUNS_APART, *CALL_EXCLUSIONS)
 """The requirements that keep executions of a component apart."""
 
+LOWEST_PRIORITY = 255
+"""The greatest value of a priority (10.5.1)."""
+
 _ACTIVE_CALLS = ("R-10.1.3.2-07", "R-10.1.3.2-08")
 
 _GUARANTEES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
@@ -57,6 +60,25 @@ def extended_policy(declaration: Declaration) -> s.Policy | None:
     if not declaration.policies:
         return None
     return next((policy for policy in declaration.policies if policy.definition in s.EXTENDED), None)
+
+
+def wrong_value(policy: s.Policy) -> str:
+    """The parameter of a policy of 10.5 whose value its type cannot hold, or a period that is none, with the value; empty if there is none."""
+    for name, value in policy.settings.items():
+        is_priority = name == s.PRIORITY.get(policy.definition)
+        is_period = name == s.PERIOD.get(policy.definition)
+        if (is_priority and not 0 <= value <= LOWEST_PRIORITY) or value < is_period:
+            return f"{name} = {value}"
+    return ""
+
+
+def may_refuse_values(declaration: Declaration, ics: Ics) -> bool:
+    """May the component be refused, at its start at latest, for the values of a policy of 10.5?"""
+    policy = extended_policy(declaration)
+    if policy is None:
+        return False
+    is_zero = policy.settings.get(s.PRIORITY[policy.definition]) == 0
+    return bool(wrong_value(policy)) or (is_zero and ics.permits("priority-zero", "refused"))
 
 
 def managed_ports(declaration: Declaration) -> set[str]:

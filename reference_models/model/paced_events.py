@@ -124,6 +124,16 @@ class PacedPhase:
         """The earliest instant, or the latest one, at which the offset has passed."""
         return self.origins[latest] + self.offset
 
+    def busy_since(self, moment: int, within: int) -> int:
+        """When the executions began that kept the component busy until ``moment``, with no gap longer than ``within``."""
+        spans = [(e.t, e.left) for e in self.executions] + [
+            (e.enter.t, e.left if e.over else moment) for e in self.others
+        ]
+        for begin, end in sorted(spans, reverse=True):
+            if begin < moment and end >= moment - within and end - begin >= self.period // 2:
+                moment = begin
+        return moment
+
     def busy_until(self, moment: int, port: str = "") -> int:
         """When the execution ended that was in the component last before ``moment``: nothing could enter until then."""
         ends = [e.left if e.over else moment for e in self.others if e.enter.t < moment]

@@ -75,7 +75,7 @@ def _phase(
         (o.begin for o in runtime.interactions.changes if o.step.undoes == "phase" and o.begin.n > enter.n), None
     )
     until, ended_at = (ending.n, ending.t) if ending is not None else (NEVER, runtime.interactions.latest)
-    origins, closed = _origins(runtime, start, exit_), end_of_phase(runtime, member, enter)
+    origins, closed = _origins(runtime, start, exit_, number), end_of_phase(runtime, member, enter)
     phase = PacedPhase(member, policy, number, origins, enter.n, until, ended_at, closed)
     phase.invocations = [i for i in invocations if i.n < until and _is_for(runtime, i, member) and _lasts(i, enter.n)]
     by_execution = {id(e): i for i in phase.invocations for e in i.executions}
@@ -110,7 +110,7 @@ def _is_in(runtime: ObservedRuntime, member: Member, container: str) -> bool:
     return runtime.containers.get(container) is member.container
 
 
-def _origins(runtime: ObservedRuntime, start: Operation, startup: Exit) -> tuple[int, int]:
+def _origins(runtime: ObservedRuntime, start: Operation, startup: Exit, number: int) -> tuple[int, int]:
     """Between which instants the one lies from which the offset counts."""
     assert start.end is not None
     called, returned = start.begin.t, start.end.t
@@ -120,8 +120,8 @@ def _origins(runtime: ObservedRuntime, start: Operation, startup: Exit) -> tuple
     if reading == "startup":
         return startup.t, returned
     if reading == "start-return":
-        return returned - granularity(runtime), returned  # the event is recorded a little later than start returns
-    if reading == "system":
+        return startup.t, returned  # the return is recorded some time after it
+    if reading == "system" and number == 0:
         starts = [o for o in runtime.interactions.operations if isinstance(o.step, s.Start)]
         return starts[0].begin.t, returned
     return called, returned

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import PacedExecution, PacedPhase
-from ucm_cts.reference_models.model.paced_phases import granularity, lateness
+from ucm_cts.reference_models.model.paced_phases import granularity, lateness, paced_phases
 
 READINGS = ("one-a-period", "all-a-period", "at-once-when-idle")
 """The readings of ``periodic-active``."""
@@ -42,16 +42,20 @@ def readings(runtime: ObservedRuntime) -> tuple[str, ...]:
 def too_early(
     runtime: ObservedRuntime, phase: PacedPhase, executions: Sequence[PacedExecution], reading: str
 ) -> Untimely | None:
-    """The first of ``executions`` that a periodic component cannot have made yet under ``reading``."""
-    least = granularity(runtime)
-    if reading == "at-once-when-idle":
-        return too_close(runtime, phase, executions)
+    """The first of ``executions`` that a periodic component cannot have made yet under ``reading``.
+
+    An execution belongs to an instant that is not longer ago than the declared lateness. While the component was executed it
+    may have missed instants, which it serves afterwards.
+    """
+    if reading == "at-once-when-idle" or runtime.ics.reading("period-anchor") == "chained":
+        return too_close(runtime, phase, executions) if reading != "all-a-period" else None
     number = -1
     before: PacedExecution | None = None
     for execution in executions:
-        asked = max(0, -((phase.first(latest=True) - execution.asked) // phase.period))
-        number = max(number + (reading == "one-a-period"), asked, 0)
-        due = phase.first(latest=False) + number * phase.period - least
+        since = phase.busy_since(execution.t, lateness(runtime)) - lateness(runtime)
+        latest = -((phase.first(latest=True) - since) // phase.period)
+        number = max(number + (reading == "one-a-period"), latest, 0)
+        due = phase.first(latest=False) + number * phase.period - granularity(runtime)
         if execution.t < due:
             return Untimely(execution, due - execution.t, before)
         before = execution
@@ -79,6 +83,12 @@ def too_late(
     late = lateness(runtime)
     is_sporadic = phase.policy.definition == s.SPORADIC_ACTIVE
     from_end = is_sporadic and runtime.ics.reading("sporadic-measure") == "end"
+    shared = [  # instances of one implementation may share their instants
+        one.t
+        for other in paced_phases(runtime)
+        if other is not phase and other.member.declaration is phase.member.declaration
+        for one in other.executions
+    ]
     for j, execution in enumerate(executions):
         asked = min(e.asked for e in executions[j:] if e.asked <= execution.t)
         free = max(asked, phase.first(latest=True), phase.busy_until(execution.t))
@@ -88,6 +98,8 @@ def too_late(
             since = before.left if from_end else before.t
             waited = execution.asked < since + phase.period
             free = max(free, since + phase.period if is_sporadic else since)
+        of_others = max((moment for moment in shared if moment < execution.t), default=0)
+        free = max(free, of_others + phase.period if is_sporadic and of_others else of_others)
         due = free if is_sporadic else free + phase.period
         if phase.policy.definition == s.PERIODIC_ACTIVE and runtime.ics.reading("first-period") == "offset-plus-period":
             due += phase.period

@@ -6,7 +6,12 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.reference_models.model.execution_policies import has_unknown_policy, is_contradictory, is_plainest
+from ucm_cts.reference_models.model.execution_policies import (
+    has_unknown_policy,
+    is_contradictory,
+    is_plainest,
+    may_refuse_values,
+)
 from ucm_cts.reference_models.model.executions import without_policy
 from ucm_cts.reference_models.model.expected_callbacks import Listener, listener
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
@@ -249,6 +254,8 @@ class RowSelection:
             ongoing.forgiving = True
         elif without_policy(runtime, container):
             ongoing.forgiving = True  # whether it may be refused is execution_policy_given's matter
+        elif any(may_refuse_values(m.declaration, runtime.ics) for m in members):
+            ongoing.forgiving = True  # whether it may be refused is extended_policy_supported's matter
         ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")

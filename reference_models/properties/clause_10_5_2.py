@@ -59,7 +59,8 @@ def idle_after_its_phase(check: Property, runtime: ObservedRuntime) -> Conclusio
     for phase in paced_phases(runtime):
         entered = [e.enter.n for e in runtime.executions.of(phase.member.body)]
         stopped = phase.closed
-        later = [p for p in runtime.interactions.pauses if p.n > stopped]
+        due = max(phase.first(latest=True), phase.ended_at + phase.period)
+        later = [p for p in runtime.interactions.pauses if p.n > stopped and p.t > due]
         is_active = s.EXTENDED[phase.policy.definition] == s.ACTIVE
         waiting = [i for i in phase.invocations if not i.executions and i.n < phase.until]
         is_due = (

@@ -9,7 +9,7 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import pacing
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import Invocation, PacedExecution, PacedPhase
-from ucm_cts.reference_models.model.paced_phases import paced_phases, shown
+from ucm_cts.reference_models.model.paced_phases import lateness, paced_phases, shown
 from ucm_cts.reference_models.properties.clause_10_5_2 import of_phase
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -17,7 +17,7 @@ _TRIGGERED = {s.PERIODIC_ACTIVE: "R-10.5.2-08", s.SPORADIC_ACTIVE: "R-10.5.2-13"
 _ONCE = {s.PERIODIC_ACTIVE: "R-10.5.2-09", s.SPORADIC_ACTIVE: "R-10.5.2-14"}
 _EVERY_PERIOD, _NOT_MORE_OFTEN, _IN_THE_END = "R-10.5.2-10", "R-10.5.2-11", "R-10.5.2-12"
 _APART, _AT_ONCE, _NO_SUM = "R-10.5.2-15", "R-10.5.2-16", "R-10.5.2-17"
-_RESTARTS = "R-10.5.2-21"
+_PHASES, _RESTARTS = "R-10.5.2-20", "R-10.5.2-21"
 _ACTIVE = (s.PERIODIC_ACTIVE, s.SPORADIC_ACTIVE)
 
 
@@ -40,24 +40,27 @@ def invoked_when_executed(check: Property, runtime: ObservedRuntime) -> Conclusi
             break
 
 
-@property_at("closed", *_ONCE.values(), feature="paced")
+@property_at("closed", *_ONCE.values(), _PHASES, feature="paced")
 def executed_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Each call enters once, with its own value and result; an early one of a sporadic component may be refused."""
     for phase in paced_phases(runtime, *_ACTIVE):
         requirement = _ONCE[phase.policy.definition]
         for invocation in phase.invocations:
             executions = [e for e in invocation.executions if e.enter.body == phase.member.body]
-            if len(executions) > 1:
+            if any(e.enter.n > invocation.over for e in executions) and isinstance(_end_of(runtime, invocation), Raise):
+                yield _other_times(check, phase, invocation, 2, requirement)
+            elif len(executions) > 1:
                 yield _other_times(check, phase, invocation, len(executions), requirement)
             elif invocation.over < phase.until and invocation.n > phase.begin:
                 yield from _carried_out(check, runtime, phase, invocation, requirement)
+            elif phase.until < invocation.over and not invocation.executions:
+                yield from _left_waiting(check, runtime, phase, invocation, requirement)
 
 
 def _carried_out(
     check: Property, runtime: ObservedRuntime, phase: PacedPhase, invocation: Invocation, requirement: str
 ) -> Conclusions:
-    operation = next((o for o in runtime.interactions.operations if o.begin.n == invocation.n), None)
-    end = operation.end if operation is not None else None
+    end = _end_of(runtime, invocation)
     if not invocation.executions:
         if isinstance(end, Return):
             yield _other_times(check, phase, invocation, 0, requirement)
@@ -88,9 +91,49 @@ def _carried_out(
     yield check.kept(requirement)
 
 
+def _left_waiting(
+    check: Property, runtime: ObservedRuntime, phase: PacedPhase, invocation: Invocation, requirement: str
+) -> Conclusions:
+    """It waited when the phase ended: it was too early to be executed, and it comes back, with an exception."""
+    if invocation.message is not None or invocation.call.step is None:
+        return
+    end = _end_of(runtime, invocation)
+    if isinstance(end, Return):
+        yield _other_times(check, phase, invocation, 0, requirement)
+        return
+    ahead = sum(1 for i in phase.invocations if i is not invocation)
+    busy = sum(e.left - e.t for e in phase.executions) + sum(e.left - e.enter.t for e in phase.others if e.over)
+    limit = max(invocation.t, phase.first(latest=True)) + (ahead + 2) * phase.period + busy + lateness(runtime)
+    if limit < phase.ended_at and all(one.over for one in phase.others):
+        yield check.fail(
+            "never",
+            expected=f"the call through {invocation.port} executes '{phase.member.lane}', after {ahead} others at most",
+            observed="it still waited when the component was stopped",
+            at=(invocation.n, phase.until),
+            requirement=requirement,
+        )
+        return
+    for wait in runtime.interactions.waits:
+        is_for_it = isinstance(wait.step, s.Join) and wait.step.worker == invocation.call.step.thread
+        if is_for_it and phase.closed < wait.timeout.n < invocation.over:
+            yield check.fail(
+                "left waiting",
+                expected=f"a call that waits when '{phase.member.lane}' is stopped comes back",
+                observed="it did not",
+                at=(invocation.n, wait.timeout.n),
+                requirement=_PHASES,
+            )
+            return
+
+
+def _end_of(runtime: ObservedRuntime, invocation: Invocation) -> Return | Raise | None:
+    """How a call of the test came back; None if it did not."""
+    return next((o.end for o in runtime.interactions.operations if o.begin.n == invocation.n), None)
+
+
 def _is_early(phase: PacedPhase, invocation: Invocation) -> bool:
     """Was it made before the least distance had passed since another invocation that was made or executed before it?"""
-    moments = [e.t for e in phase.executions if e.t <= invocation.t + phase.period]
+    moments = [e.t for e in phase.executions if e.enter.n < invocation.over]
     moments += [e.left for e in phase.executions if e.t <= invocation.t]
     moments += [i.t for i in phase.invocations if i is not invocation and i.n < invocation.n]
     return any(invocation.t - moment < phase.period + phase.period // 4 for moment in moments)
@@ -132,7 +175,7 @@ def _untimely(check: Property, phase: PacedPhase, worst: pacing.Untimely, requir
     return check.fail(
         "early",
         expected=f"'{phase.member.lane}' is executed each {shown(phase.period)}",
-        observed=f"it was executed {shown(worst.by)} too early, at the latest of the moments that the text can be read to permit",
+        observed=f"it was executed {shown(worst.by)} too early, under every reading that may hold",
         at=(*before, worst.execution.enter.n),
         requirement=requirement,
     )
@@ -191,8 +234,8 @@ def _late(check: Property, phase: PacedPhase, execution: PacedExecution, late: i
     asked = (execution.invocation.n,) if execution.invocation is not None else ()
     return check.fail(
         "late",
-        expected=f"a call of '{phase.member.lane}' is executed when its policy permits it, or as much later as declared",
-        observed=f"it was executed {shown(late)} later than that",
+        expected=f"a call of '{phase.member.lane}' is executed when its policy permits it, or as much later as timer-lateness says",
+        observed=f"it was executed {shown(late)} later than timer-lateness permits",
         at=(*asked, execution.enter.n),
         requirement=requirement,
     )

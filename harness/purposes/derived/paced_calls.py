@@ -78,7 +78,10 @@ def _bursts(definition: str) -> TestPurpose:
     in_turn = tuple(s.Invoke("api", n) for n in range(1, _BURST + 1))
     cases.append(("one after the other", _scenario(server, *in_turn)))
     raising = _server(policy(definition, _USUAL), plan={"exchange": (s.RaiseError(),)})
-    cases.append(("calls that raise", _scenario(raising, *_calls("api", "api", "api"), *_joins(3))))
+    cases.append(("calls that raise", _scenario(raising, *_calls("api", "api", "api"), *_joins(3), *in_turn)))
+    slow = _server(policy(definition, _LONG))
+    for early in (20, 150):
+        cases.append((f"a long period, after {early} ms", _scenario(slow, s.Pause(early), *_burst_of(["api"] * 3, 1))))
     return purposes_about(f"{NAMES[definition]}/bursts", f"{_EACH_ONCE[definition]} {_APART[definition]}", *cases)
 
 
@@ -106,8 +109,8 @@ def _offsets() -> TestPurpose:
     for offset, period in ((0, _USUAL), (20, _USUAL), (180, _USUAL), (250, 30)):
         server = _server(policy(_PERIODIC, period, offset))
         cases.append((f"{offset} ms", _scenario(server, *_calls("api", "api"), *_joins(2))))
-    server = _server(policy(_PERIODIC, _USUAL, 60))
-    later = (s.Pause(200), *_calls("api", "api"), *_joins(2))
+    server = _server(policy(_PERIODIC, _USUAL, 170))
+    later = (s.Pause(280), *_calls("api", "api"), *_joins(2))
     cases.append(("has passed", _scenario(server, *later)))
     return purposes_about(f"{NAMES[_PERIODIC]}/offsets", "1-22 1-30 2-10", *cases)
 
@@ -185,6 +188,7 @@ def _phases(definition: str) -> TestPurpose:
     pending = (s.Invoke("api", 9, thread="first"), s.Pause(20), *waiting, s.Pause(20))
     stopped = (*pending, s.Stop(), s.Join("first"), *_joins(3), s.Pause(_LONG + 50))
     cases = [("stop while calls wait", _scenario(server, *stopped))]
+    cases.append(("restart after calls waited", _scenario(server, *stopped[:-1], s.Start(), s.Pause(2 * _LONG + 50))))
     removed = (*stopped[:-1], s.RemoveComponent("server"), s.Pause(_LONG + 50))
     cases.append(("removal", _scenario(server, *removed)))
     quick = _server(*_both(definition, _USUAL, 20))
@@ -204,9 +208,11 @@ def _several(definition: str) -> TestPurpose:
     for fast, slow in ((1, 255), (255, 1), (9, 9)):
         components = {
             "fast": _server(policy(definition, _USUAL, priority=fast)),
-            "slow": _server(policy(definition, 2 * _USUAL, priority=slow)),
+            "slow": _server(policy(definition, _LONG, priority=slow)),
         }
-        steps = (*_added("fast"), *_added("slow"), s.Start(), *_burst_of(["fast", "slow"] * 3, 1), s.Stop())
+        order = ("slow", "fast") if slow > fast else ("fast", "slow")
+        added = (step for name in order for step in _added(name))
+        steps = (*added, s.Start(), *_burst_of(["fast", "slow", "fast", "slow", "fast"], 1), s.Stop())
         cases.append((f"priorities {fast} and {slow}", Scenario(components, steps)))
     server = {"server": _server(policy(definition, _USUAL))}
     steps = (
@@ -217,7 +223,39 @@ def _several(definition: str) -> TestPurpose:
         s.Stop(),
     )
     cases.append(("two instances", Scenario(server, steps)))
+    cases += [("in another container", _below(definition)), ("called by components", _peers(definition))]
     return purposes_about(f"{NAMES[definition]}/several", f"1-27 {_EACH_ONCE[definition]}", *cases)
+
+
+def _below(definition: str) -> Scenario:
+    """A second instance, in another container, is called when the first one has been removed, and while the first one's container starts."""
+    server = {"server": _server(policy(definition, _USUAL, 40))}
+    steps: tuple[Step, ...] = (
+        *(
+            s.CreateContainer("below"),
+            s.AddComponent("server", bind="first"),
+            s.Start(),
+            s.Stop(),
+            s.RemoveComponent("first"),
+        ),
+        *(s.AddComponent("server", "below", bind="second"), s.GetPortElement("second", PORT, "api", "below")),
+        *(s.Start("below"), *_burst_of(["api"] * 3, 1), s.Start(), s.Pause(_USUAL), *_burst_of(["api"] * 3, 11)),
+        *(s.Stop(), *_burst_of(["api"] * 2, 21), s.Stop("below")),
+    )
+    return Scenario(server, steps)
+
+
+def _peers(definition: str) -> Scenario:
+    """Three components call the server through connections."""
+    components = {"server": _server(policy(definition, _USUAL))}
+    steps: list[Step] = [s.AddComponent("server"), s.GetPortElement("server", PORT, "goal")]
+    for number in range(3):
+        name = f"client {number}"
+        components[name] = Declaration((PORT,), ("out.api",), plan={"exchange": (s.CallPort("out.api", 40 + number),)})
+        steps += [s.AddComponent(name), s.Connect(name, "out.api", "goal", f"line {number}")]
+        steps.append(s.GetPortElement(name, PORT, name))
+    steps += [s.Start(), *_burst_of(["client 0", "client 1", "client 2"], 1), s.Stop()]
+    return Scenario(components, tuple(steps))
 
 
 def _added(component: str, name: str = "") -> tuple[Step, ...]:

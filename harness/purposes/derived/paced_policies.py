@@ -10,7 +10,7 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 
 PORT, OTHER_PORT = "in.api", "aux.api"
 _PERIOD = 20
-_PRIORITIES = (1, 128, 255)
+_PRIORITIES = (1, 2, 127, 128, 129, 200, 254, 255)
 
 NAMES = {
     s.PERIODIC_SELF_EXECUTING: "periodic self-executing",
@@ -66,16 +66,19 @@ def policy_purposes() -> list[TestPurpose]:
     for definition, name in NAMES.items():
         for core, port in cores:
             pairs.append((f"{name}, {core}", _started({"paced": (policy(definition), Policy(core, port))})))
+    for definition in (s.PERIODIC_SELF_EXECUTING, s.BACKGROUND):
+        twice = (policy(definition), policy(definition, priority=8))
+        pairs.append((f"{NAMES[definition]} twice", _started({"paced": twice})))
     purposes.append(purposes_about("two of them", "1-23", *pairs))
     return purposes
 
 
 def _wrong(definition: str) -> list[tuple[str, int, Policy]]:
-    """A period of zero, and times below zero."""
+    """A period of zero, and times below zero. A least distance of zero is no limit."""
     found = []
     for names, values in ((s.PERIOD, (0, -1)), (s.OFFSET, (-1,))):
-        if definition in names and definition != s.SPORADIC_ACTIVE:
-            for value in values:
+        if definition in names:
+            for value in values if definition != s.SPORADIC_ACTIVE else values[1:]:
                 right = policy(definition)
                 settings = {**right.settings, names[definition]: value}
                 found.append((names[definition], value, Policy(definition, right.port, settings=settings)))

@@ -16,7 +16,7 @@ _RAN, _INSIDE = "ran", "inside"
 _SHORT, _USUAL, _LONG = 10, 20, 300
 """Periods in milliseconds. With the long one lateness shows."""
 
-_MANY = 31
+_MANY, _VERY_MANY = 31, 61
 _BACKGROUND, _PERIODIC = s.BACKGROUND, s.PERIODIC_SELF_EXECUTING
 _ELSEWHERE = "elsewhere"
 
@@ -44,11 +44,13 @@ def _runs(count: int) -> s.ReachGate:
 def _rates() -> TestPurpose:
     name = NAMES[_PERIODIC]
     cases = []
-    for period, count in ((_SHORT, _MANY), (_USUAL, _MANY), (_LONG, 3)):
+    for period, count in ((_SHORT, _MANY), (_USUAL, _VERY_MANY), (_LONG, 3)):
         runner = _runner(policy(_PERIODIC, period))
         cases.append((f"each {period} ms", _scenario({"runner": runner}, s.Start(), _runs(count))))
+    seconds = _runner(policy(_PERIODIC, 1050, 1020))
+    cases.append(("each 1,050 ms after 1,020 ms", _scenario({"runner": seconds}, s.Start(), _runs(1), _runs(2))))
     raising = _runner(policy(_PERIODIC, _USUAL), after=(s.RaiseError(),))
-    cases.append(("runs that raise", _scenario({"runner": raising}, s.Start(), _runs(5))))
+    cases.append(("runs that raise", _scenario({"runner": raising}, s.Start(), _runs(1), s.Pause(60))))
     return purposes_about(f"{name}/rates", "2-01 2-02 2-03 2-04", *cases)
 
 
@@ -93,16 +95,38 @@ def _offsets() -> list[TestPurpose]:
             s.AddComponent("later", _ELSEWHERE),
             s.OpenGate(_RAN),
             s.Start(),
-            s.Pause(80),
+            s.Pause(90),
             s.Start(_ELSEWHERE),
             s.ReachGate(_RAN, more=count),
             s.Pause(120),
             s.Stop(_ELSEWHERE),
+            s.Pause(150),
             s.Stop(),
         )
         cases.append(("a container that is started later", Scenario(components, steps)))
+        cases.append(("a second instance", _second(definition, count)))
         purposes.append(purposes_about(f"{NAMES[definition]}/offsets", requirements, *cases))
     return purposes
+
+
+def _second(definition: str, count: int) -> Scenario:
+    """Of two instances the first one is removed, and both the second one and another component run."""
+    components = {"runner": _runner(policy(definition, _USUAL, 60)), "other": _runner(policy(definition, _USUAL, 30))}
+    steps: tuple[Step, ...] = (
+        s.AddComponent("runner", bind="first"),
+        s.AddComponent("runner", bind="second"),
+        s.AddComponent("other"),
+        s.OpenGate(_RAN),
+        s.Start(),
+        _runs(3 * count),
+        s.Stop(),
+        s.RemoveComponent("first"),
+        s.Start(),
+        s.ReachGate(_RAN, more=2 * count),
+        s.Pause(150),
+        s.Stop(),
+    )
+    return Scenario(components, steps)
 
 
 def _phases() -> list[TestPurpose]:
@@ -116,6 +140,10 @@ def _phases() -> list[TestPurpose]:
         waits = {"runner": _runner(policy(definition, _USUAL, 120))}
         cut = (s.Start(), s.Pause(20), s.Stop(), s.Pause(180))
         cases.append(("stop before the offset has passed", _scenario(waits, *cut)))
+        held = {"runner": _runner(policy(definition, _USUAL), gate=_INSIDE)}
+        stopping = (s.Start(), s.ReachGate(_INSIDE), s.Stop(thread="stopper"), s.Settle("stopper"))
+        while_held = (*stopping, s.OpenGate(_INSIDE), s.Join("stopper"), s.Pause(80))
+        cases.append(("stop during a run", _scenario(held, *while_held, gates=())))
         once_more = (*cut, s.Start(), s.ReachGate(_RAN, more=count))
         cases.append(("restart before the offset has passed", _scenario(waits, *once_more)))
         removed = (s.Start(), s.Pause(20), s.Stop(), s.RemoveComponent("runner"), s.Pause(180), s.Start(), s.Pause(60))
@@ -136,15 +164,31 @@ def _exclusion() -> list[TestPurpose]:
         )
         calls = (s.Invoke("api", 1, thread="one"), s.Settle("one"), s.Invoke("aux", 2, thread="two"), s.Settle("two"))
         joined = (s.Join("one"), s.Join("two"))
-        held = (*ways, s.Start(), s.ReachGate(_INSIDE), *calls, s.Pause(70), s.OpenGate(_INSIDE), *joined)
+        held = (*ways, s.Start(), s.ReachGate(_INSIDE), *calls, s.Pause(220), s.OpenGate(_INSIDE), *joined)
         cases = [("run and ports", _scenario({"runner": runner}, *held, s.Pause(50), gates=()))]
         both = Declaration(
             (PORT, OTHER_PORT),
             policies=(policy(definition, _USUAL, 40),),
             plan={"run": (s.HoldAtGate(_RAN),), "exchange": (s.HoldAtGate(_INSIDE),)},
         )
-        inside = (s.Invoke("api", 1, thread="one"), s.ReachGate(_INSIDE), s.Pause(100), s.OpenGate(_INSIDE))
-        cases.append(("ports and run", _scenario({"runner": both}, *ways, s.Start(), *inside, s.Join("one"), _runs(1))))
+        for first, then in (("api", "aux"), ("aux", "api")):
+            inside = (
+                *(s.Invoke(first, 1, thread="one"), s.ReachGate(_INSIDE)),
+                *(s.Invoke(then, 2, thread="two"), s.Settle("two"), s.Pause(220), s.OpenGate(_INSIDE)),
+                *(s.Join("one"), s.Join("two"), _runs(1)),
+            )
+            cases.append((f"{first} and run", _scenario({"runner": both}, *ways, s.Start(), *inside)))
+        again = (
+            s.Start(),
+            s.Stop(),
+            s.Start(),
+            s.ReachGate(_INSIDE),
+            *calls,
+            s.Pause(40),
+            s.OpenGate(_INSIDE),
+            *joined,
+        )
+        cases.append(("after a restart", _scenario({"runner": runner}, *ways, *again, gates=())))
         purposes.append(purposes_about(f"{NAMES[definition]}/exclusion", "2-18", *cases))
     return purposes
 
@@ -165,6 +209,9 @@ def _several() -> TestPurpose:
     cases.append(("two instances", _scenario(twice, *again)))
     mixed = {"periodic": _runner(policy(_PERIODIC, _USUAL, 5)), "background": _runner(policy(_BACKGROUND, 0, 50))}
     cases.append(("both kinds", _scenario(mixed, s.Start(), _runs(20))))
+    held = {"held": _runner(policy(_PERIODIC, _USUAL), gate=_INSIDE), "free": _runner(policy(_PERIODIC, _USUAL))}
+    beside = (s.Start(), s.ReachGate(_INSIDE), s.Pause(150), s.OpenGate(_INSIDE), _runs(8))
+    cases.append(("one is held", _scenario(held, *beside)))
     return purposes_about("periodic self-executing/several", "1-27 1-31 2-01", *cases)
 
 
@@ -186,4 +233,11 @@ def _beside() -> TestPurpose:
             s.OpenGate(_INSIDE),
         )
         cases.append((f"{first} first", _scenario(components, *steps, gates=())))
+    components = {"runner": _runner(policy(_BACKGROUND), gate=_INSIDE), "other": other}
+    elsewhere: tuple[Step, ...] = (
+        *(s.CreateContainer(_ELSEWHERE), s.AddComponent("runner"), s.AddComponent("other", _ELSEWHERE)),
+        *(s.Start(), s.ReachGate(_INSIDE), s.Start(_ELSEWHERE, thread="starter"), s.Join("starter")),
+        *(s.OpenGate(_INSIDE), s.Stop(_ELSEWHERE), s.Stop()),
+    )
+    cases.append(("start of another container", Scenario(components, elsewhere)))
     return purposes_about(f"{NAMES[_BACKGROUND]}/beside others", "2-07", *cases)

@@ -24,6 +24,7 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.selftest.trials import Thoroughness, all_variants, examine_variant
 from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.execution_policies import extended_policy
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
@@ -37,12 +38,13 @@ PARTS = {
 """The purposes of each part, or of parts that have some in common."""
 
 SHORT = 0.2
-"""Of the patience of scenarios: what a mutant never does is not waited for longer."""
+"""Of the patience of scenarios without times: what a mutant never does is not waited for longer."""
 
 
 def asked(whole: Scenario) -> Scenario:
     """The scenario in disguise, because frameworks make the names of port elements of those of ports."""
-    short = msgspec.structs.replace(whole, patience=int(whole.patience * SHORT))
+    is_paced = any(extended_policy(one) for one in whole.components.values())
+    short = whole if is_paced else msgspec.structs.replace(whole, patience=int(whole.patience * SHORT))
     return Disguise(1, ReferenceAdapter.port_element_name).scenario(short)
 
 

@@ -134,7 +134,7 @@ class refuses_waiting_periodic_calls(Base):
             waiting.release()
 
 
-@breaks("R-10.5.2-09", "R-10.5.2-14", clauses=PACED, also=_AS_ALL_CALLS)
+@breaks("R-10.5.2-09", "R-10.5.2-14", clauses=PACED, also=(*_AS_ALL_CALLS, "R-11.1.3-01"))
 class answers_with_the_last_result(Base):
     """A paced call brings back the result of the one before."""
 

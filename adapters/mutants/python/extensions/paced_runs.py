@@ -151,9 +151,6 @@ family(
     _StopsRunning,
     "ends",
     {
-        "stops_after_a_run_that_raised": Row(
-            "R-10.5.2-04", "A run that raises is the last one.", lambda number, took, raised: raised
-        ),
         "stops_after_ten_runs": Row(
             "R-10.5.2-04", "The tenth run is the last one.", lambda number, took, raised: number == 10, also=_RATE
         ),

@@ -128,6 +128,20 @@ class begins_the_grid_anew(Pace):
         return number + 1
 
 
+@variant_of(*PACED)
+class runs_no_more_after_an_exception(Base):
+    """A run that raises is the last one of its phase."""
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        if not member.execution.extended:
+            super()._run(member, trigger)
+            return
+        try:
+            self._execute(member, None, lambda: trigger.run(self._execution_api(member).run))
+        except Exception:  # noqa: BLE001 - a body may raise anything
+            trigger.ended.set()
+
+
 @variant_of(*PACED, readings={"background-again": "once-a-life"})
 class runs_once_a_life(Base):
     """A background component runs in its first phase only."""
