@@ -71,9 +71,8 @@ def _phase(
     invocations: list[Invocation],
 ) -> PacedPhase:
     assert start.end is not None
-    ending = next(
-        (o.begin for o in runtime.interactions.changes if o.step.undoes == "phase" and o.begin.n > enter.n), None
-    )
+    after = (o for o in runtime.interactions.changes if o.step.undoes == "phase" and o.begin.n > enter.n)
+    ending = next((o.begin for o in after if _may_end(runtime, member, o.step)), None)
     until, ended_at = (ending.n, ending.t) if ending is not None else (NEVER, runtime.interactions.latest)
     origins, closed = _origins(runtime, start, exit_, number), end_of_phase(runtime, member, enter)
     phase = PacedPhase(member, policy, number, origins, enter.n, until, ended_at, closed)
@@ -104,6 +103,13 @@ def end_of_phase(runtime: ObservedRuntime, member: Member, startup: Enter) -> in
         if of_container or of_member or isinstance(step, s.Destroy):
             return end.n
     return NEVER
+
+
+def _may_end(runtime: ObservedRuntime, member: Member, step: s.Step) -> bool:
+    """May ``step`` end the phase of ``member``? Stopping the manager may reach all containers."""
+    if isinstance(step, s.Stop | s.RemoveContainer):
+        return step.container == s.MANAGER or _is_in(runtime, member, step.container)
+    return not isinstance(step, s.RemoveComponent) or runtime.members.get(step.id) in (None, member)
 
 
 def _is_in(runtime: ObservedRuntime, member: Member, container: str) -> bool:

@@ -108,16 +108,24 @@ def runs_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 
 def _latest(runtime: ObservedRuntime, phase: PacedPhase, k: int) -> int:
-    """When run ``k`` is due at the latest: on the grid until a run lasted too long, afterwards within a period."""
+    """When run ``k`` is due at the latest: on the grid until a run lasted too long, afterwards within a period.
+
+    One thread may run all components: while a run of another one lasts for a period, none is due.
+    """
     grid = phase.first(latest=True) + _shift(runtime, phase) + k * phase.period
-    if k == 0:
-        return max(grid, phase.busy_until(phase.executions[0].t if phase.executions else phase.ended_at))
-    before = phase.executions[k - 1]
-    following = max(before.left, before.t) + phase.period
     moment = phase.executions[k].t if k < len(phase.executions) else phase.ended_at
-    following = max(following, phase.busy_until(moment))
-    if k > phase.overrun or phase.others or runtime.ics.reading("period-anchor") == "chained":
-        return following
+    elsewhere = [
+        min(run.left, moment)
+        for other in paced_phases(runtime, s.PERIODIC_SELF_EXECUTING)
+        for run in other.executions
+        if other is not phase and run.t < moment and run.left - run.t >= phase.period
+    ]
+    free = max([phase.busy_until(moment), *elsewhere])
+    if k == 0:
+        return max(grid, free)
+    before = phase.executions[k - 1]
+    if k > phase.overrun or phase.others or elsewhere or runtime.ics.reading("period-anchor") == "chained":
+        return max(before.left + phase.period, free)
     return max(grid, before.left)
 
 

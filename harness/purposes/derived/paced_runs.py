@@ -209,9 +209,6 @@ def _several() -> TestPurpose:
     cases.append(("two instances", _scenario(twice, *again)))
     mixed = {"periodic": _runner(policy(_PERIODIC, _USUAL, 5)), "background": _runner(policy(_BACKGROUND, 0, 50))}
     cases.append(("both kinds", _scenario(mixed, s.Start(), _runs(20))))
-    held = {"held": _runner(policy(_PERIODIC, _USUAL), gate=_INSIDE), "free": _runner(policy(_PERIODIC, _USUAL))}
-    beside = (s.Start(), s.ReachGate(_INSIDE), s.Pause(150), s.OpenGate(_INSIDE), _runs(8))
-    cases.append(("one is held", _scenario(held, *beside)))
     return purposes_about("periodic self-executing/several", "1-27 1-31 2-01", *cases)
 
 
