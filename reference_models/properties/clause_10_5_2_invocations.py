@@ -184,15 +184,7 @@ def _untimely(check: Property, phase: PacedPhase, worst: pacing.Untimely, requir
 @property_at("closed", _EVERY_PERIOD, _IN_THE_END, _RESTARTS, feature="paced", timed=True)
 def executed_in_the_end(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call is executed at the next instant, or at one of the next if others came before it."""
-    for phase in paced_phases(runtime, s.PERIODIC_ACTIVE):
-        for executions in pacing.groups(runtime, phase):
-            for execution, waited, late in pacing.too_late(runtime, phase, executions):
-                requirement = _IN_THE_END if waited else _EVERY_PERIOD
-                if not late:
-                    yield check.kept(requirement)
-                    continue
-                yield _late(check, phase, execution, late, of_phase(phase, requirement))
-                break
+    yield from _in_time(check, runtime, s.PERIODIC_ACTIVE, (_EVERY_PERIOD, _IN_THE_END))
 
 
 @property_at("closed", _APART, _RESTARTS, feature="paced", timed=True)
@@ -219,15 +211,18 @@ def sporadic_apart(check: Property, runtime: ObservedRuntime) -> Conclusions:
 @property_at("closed", _AT_ONCE, _NO_SUM, _RESTARTS, feature="paced", timed=True)
 def sporadic_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call of a sporadic component is executed at once, or when the least distance has passed, and no later."""
-    for phase in paced_phases(runtime, s.SPORADIC_ACTIVE):
+    yield from _in_time(check, runtime, s.SPORADIC_ACTIVE, (_AT_ONCE, _NO_SUM))
+
+
+def _in_time(check: Property, runtime: ObservedRuntime, definition: str, requirements: tuple[str, str]) -> Conclusions:
+    """Is nothing executed too late? ``requirements``: of executions that need not wait for others, and of those that must."""
+    for phase in paced_phases(runtime, definition):
         for executions in pacing.groups(runtime, phase):
             for execution, waited, late in pacing.too_late(runtime, phase, executions):
-                requirement = _NO_SUM if waited else _AT_ONCE
-                if not late:
-                    yield check.kept(requirement)
-                    continue
-                yield _late(check, phase, execution, late, of_phase(phase, requirement))
-                break
+                if late:
+                    yield _late(check, phase, execution, late, of_phase(phase, requirements[waited]))
+                    break
+                yield check.kept(requirements[waited])
 
 
 def _late(check: Property, phase: PacedPhase, execution: PacedExecution, late: int, requirement: str) -> Finding:

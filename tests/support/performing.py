@@ -38,13 +38,17 @@ def answer(asked: Scenario, adapter: type[Adapter] = ReferenceAdapter) -> FromHo
 
 
 def judged(monitor: Monitor, asked: Scenario) -> Verdicts:
-    """What ``monitor`` says of the reference framework. A scenario with findings that depend on time is run again, three times at most."""
+    """What ``monitor`` says of the reference framework. A scenario whose only findings are of 10.5 and depend on time is run
+    again, three times at most, as a run of the suite does.
+    """
     for _ in range(3):
         traced = answer(asked)
         assert isinstance(traced, Traced), traced
         assert contradiction(asked, traced.events, traced.stuck) is None
         verdicts = monitor.judge(asked, traced.events)
-        if not all(map(is_timed, verdicts.findings)) or not verdicts.findings:
+        if not verdicts.findings or not all(
+            is_timed(f) and f.requirement.startswith("R-10.5") for f in verdicts.findings
+        ):
             break
     return verdicts
 
