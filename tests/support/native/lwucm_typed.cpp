@@ -231,7 +231,7 @@ void attributes_are_configured() {
 }
 
 void what_stands_between_has_the_same_interface() {
-    School school({}, {{"protected_active_component", "class_api", {}, ""}});
+    School school({}, {{"protected_active_component", "class_api", {}, "", {}}});
     school.open();
     school_api::Abstract_lesson& lesson = *school.pupil->main;
     CHECK(school.pupil->main != school.head->lesson);
@@ -254,7 +254,7 @@ void what_stands_between_has_the_same_interface() {
 }
 
 void only_traced_port_elements_have_a_stand_in() {
-    School school({{"port_trace", "main_api", {{"methods_to_trace", "end"}, {"log_severity", "info"}}, ""}});
+    School school({{"port_trace", "main_api", {{"methods_to_trace", "end"}, {"log_severity", "info"}}, "", {}}});
     school.open();
     CHECK(school.pupil->main != school.head->lesson);
     CHECK(school.pupil->extra == school.head->office);
@@ -262,7 +262,7 @@ void only_traced_port_elements_have_a_stand_in() {
     school.pupil->extra->end();
     CHECK(school.runtime->trace_records().size() == 1);
 
-    School guarded({{"protected_passive_component", "", {}, ""}});
+    School guarded({{"protected_passive_component", "", {}, "", {}}});
     guarded.open();
     const auto hello = guarded.runtime->get_port_element(guarded.a_pupil, "main_hello");
     CHECK(std::dynamic_pointer_cast<school_api::Abstract_greeting>(hello));
@@ -270,7 +270,7 @@ void only_traced_port_elements_have_a_stand_in() {
 }
 
 void components_execute_themselves() {
-    School school({{"protected_self-executing_component", "", {}, ""}});
+    School school({{"protected_self-executing_component", "", {}, "", {}}});
     school.open();
     while (school.pupil->breaks->runs < 3) {
     }
@@ -300,7 +300,7 @@ void what_does_not_fit_is_refused() {
     school.runtime->add_component({{"implementation", "Warden"}});
     school.runtime->start();  // a warden that was promised no clock has none
 
-    School executing({}, {{"protected_self-executing_component", "", {}, ""}});
+    School executing({}, {{"protected_self-executing_component", "", {}, "", {}}});
     CHECK(refused([&] { executing.runtime->add_component({{"implementation", "Head"}}); }));
 
     class Foreign final : public PortElementObject {};

@@ -176,7 +176,8 @@ class Probe implements Body {
 
     @Override
     public Runnable getPolicyElement(String policy, String element) {
-        return SELF_EXECUTION_API.equals(element) && policy != null && SELF_EXECUTING.contains(policy) ? execution : null;
+        boolean executed = policy != null && SELF_EXECUTING.contains(policy);
+        return executed && SELF_EXECUTION_API.equals(element) ? execution : null;
     }
 
     private void run() {
