@@ -376,7 +376,8 @@ def _opener(endpoint: Endpoint, memory: int) -> Opener:
     """The opener of ``endpoint``, which is not an in-process one. ``memory``: MiB that files of its hosts may take."""
     if endpoint.kind in ("tcp", "unix"):
         return Connector(endpoint)
-    module = "ucm_cts.adapters.sdk.python." + ("host" if endpoint.kind == "python" else "spawner")
+    serving = "virtual_time" if endpoint.virtual_time else "host"
+    module = "ucm_cts.adapters.sdk.python." + (serving if endpoint.kind == "python" else "spawner")
     command = [sys.executable, "-X", "faulthandler", "-m", module, endpoint.target]
     if not endpoint.sandbox or why_none():
         return TemplateProcess(command, endpoint.text)

@@ -57,6 +57,7 @@ class Endpoint:
     ``in_process``: load it into the harness process, for debuggers.
     ``sandbox``: start it in a sandbox, where there are sandboxes.
     ``hidden``: files and folders that it must not see there.
+    ``virtual_time``: serve it in virtual time, in which waits take no time; for Python adapters.
     """
 
     text: str
@@ -65,6 +66,7 @@ class Endpoint:
     in_process: bool = False
     sandbox: bool = True
     hidden: tuple[str, ...] = ()
+    virtual_time: bool = False
 
 
 def published_statement(text: str, sandbox: bool = True) -> Path | None:
@@ -78,7 +80,14 @@ def published_statement(text: str, sandbox: bool = True) -> Path | None:
     return Path(meaning.path)
 
 
-def locate(text: str, in_process: bool = False, *, sandbox: bool = True, hidden: Iterable[str | Path] = ()) -> Endpoint:
+def locate(
+    text: str,
+    in_process: bool = False,
+    *,
+    sandbox: bool = True,
+    hidden: Iterable[str | Path] = (),
+    virtual_time: bool = False,
+) -> Endpoint:
     """The endpoint that ``text`` names. Raises ``WrongUse``."""
     published = _published(GROUP)
     if not text:
@@ -91,7 +100,12 @@ def locate(text: str, in_process: bool = False, *, sandbox: bool = True, hidden:
         raise WrongUse(
             f"'{text}' cannot run in the harness process: that takes a Python adapter or an extension module"
         )
-    return replace(endpoint, text=text, in_process=in_process, sandbox=sandbox, hidden=tuple(map(str, hidden)))
+    if virtual_time and (in_process or endpoint.kind != "python" or os.sep in endpoint.target):
+        raise WrongUse(f"'{text}' cannot run in virtual time: that takes a Python adapter, in a process of its own")
+    places = tuple(map(str, hidden))
+    return replace(
+        endpoint, text=text, in_process=in_process, sandbox=sandbox, hidden=places, virtual_time=virtual_time
+    )
 
 
 def namesakes(endpoint: Endpoint, file: str) -> Iterator[str]:

@@ -1,13 +1,14 @@
 """Compares the trace of a mutant with that of the original framework: a finding must name one of the differences.
 
-Both have run the same scenario. Ids in the permitted range, times and threads may differ;
+Both have run the same scenario. Ids in the permitted range and threads may differ, and in real time the times;
 everything else is compared.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import msgspec
@@ -19,6 +20,9 @@ from ucm_cts.reference_models.findings import Finding
 
 IDS = range(-(2**31), 2**31)
 """What an id may be (12.10)."""
+
+_MOMENT = 1_000_000
+"""Nanoseconds by which the time between two events may differ in virtual time: clocks are not read equally often."""
 
 _MAY_DIFFER = ("n", "t", "thread", "detail")
 
@@ -41,19 +45,30 @@ class Divergence:
         return bool(self.events & set(finding.events) or self.steps & steps)
 
 
-def divergence(scenario: Scenario, right: Trace, wrong: Trace) -> Divergence:
-    """Where ``wrong`` parts from ``right``; both are in the scenario's own names."""
+def divergence(scenario: Scenario, right: Trace, wrong: Trace, virtual_time: bool = False) -> Divergence:
+    """Where ``wrong`` parts from ``right``; both are in the scenario's own names. In ``virtual_time`` an event that comes earlier
+    or later differs, too.
+    """
     step_of = _steps(wrong)
     events: set[int] = set()
     steps: set[int] = set()
     compared = difflib.SequenceMatcher(None, _comparable(scenario, right), _comparable(scenario, wrong), autojunk=False)
-    for kind, _, _, begin, end in compared.get_opcodes():
+    for kind, same, _, begin, end in compared.get_opcodes():
         if kind == "equal":
+            if virtual_time:
+                events.update(_at_other_times(right[same:], wrong[begin:end]))
             continue
         events.update(event.n for event in wrong[begin:end])
         around = range(max(begin - 1, 0), min(end + 1, len(wrong)))
         steps.update(step_of[place] for place in around)
     return Divergence(frozenset(events), frozenset(steps), step_of)
+
+
+def _at_other_times(right: Trace, wrong: Trace) -> Iterator[int]:
+    """The ``n`` of events that come earlier or later after the one before them. ``right`` may be longer."""
+    for (before, one), (earlier, other) in zip(itertools.pairwise(right), itertools.pairwise(wrong), strict=False):
+        if abs((one.t - before.t) - (other.t - earlier.t)) > _MOMENT:
+            yield other.n
 
 
 def _steps(trace: Trace) -> tuple[int, ...]:

@@ -90,12 +90,14 @@ class Thoroughness:
     ``whole``: the whole profile instead of the subject's own clauses, for a mutant that is killed, too.
     ``quick``: end when a mutant is killed; otherwise it is spared what is derived from dimensions then.
     ``beginning``: only purposes whose names begin so.
+    ``real_time``: subjects in Python run in real time instead of virtual time.
     """
 
     seed: int = 1
     whole: bool = False
     quick: bool = False
     beginning: str = ""
+    real_time: bool = False
 
 
 def all_mutants() -> dict[str, Subject]:
@@ -161,6 +163,7 @@ class _Trial:
     """What the ordinary pipeline showed of one subject."""
 
     seed: int
+    virtual_time: bool
     shown: dict[str, list[Shown]] = field(default_factory=dict)
     right: dict[str, Kill] = field(default_factory=dict)
     incidents: tuple[str, ...] = ()
@@ -185,20 +188,21 @@ class _Trial:
             return known
         by_length = sorted(self.shown[requirement], key=lambda shown: length(shown[1]))[:COMPARED]
         for number, (finding, execution) in enumerate(by_length, 1):
-            if _names_the_place(subject, self.seed, finding, execution):
+            if _names_the_place(subject, self, finding, execution):
                 self.right[requirement] = _kill(finding, execution, True, number)
                 return self.right[requirement]
         return _kill(*by_length[0], False, len(by_length))
 
 
 def _run(subject: Subject, how: Thoroughness) -> _Trial:
-    ran = _Trial(how.seed)
+    ran = _Trial(how.seed, not (how.real_time or subject.is_native))
     began = time.monotonic()
     is_extended = subject.clauses[0].startswith(_OF_EXTENSIONS)
     profile = "extensions" if is_extended else "core" if how.whole or subject.clauses != CONTAINER else "container"
     statement = _statement(subject)
     try:
-        with _being(subject), Driver(locate(subject.adapter), how.seed, LIMITS) as driver:
+        endpoint = locate(subject.adapter, virtual_time=ran.virtual_time)
+        with _being(subject), Driver(endpoint, how.seed, LIMITS) as driver:
             campaign = Campaign(driver, profile, (), statement)
             purposes = _purposes(subject, how, profile, statement)
             derived = [purpose for purpose in purposes if purpose.of_dimensions]
@@ -260,27 +264,29 @@ def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_
     return Kill(finding.requirement, execution.name, finding.rule, *shown, names_the_place, looked_at)
 
 
-def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: Execution) -> bool:
+def _names_the_place(subject: Subject, ran: _Trial, finding: Finding, execution: Execution) -> bool:
     """Whether the finding is about a difference between the mutant and its model.
 
     An incident always is, and what a host's process holds. Where only the statement is wrong, the finding must vanish under the statement of the model.
     """
     if execution.incident is not None or finding.rule in HOST_CHECKS:
         return True
-    right = _right_traces(subject.model, seed).of(execution.scenario)
-    parted = divergence(execution.scenario, right, execution.trace)
-    if not parted.steps and subject.readings:  # it lies in its statement: under its model's the finding must vanish
-        usual = Monitor(load_life_cycle(), stated_by(None, subject.reference).ics)
-        found = usual.judge(execution.scenario, execution.trace).findings
-        return all(other.requirement != finding.requirement for other in found)
-    return parted.explains(finding)
+    right = _right_traces(subject.model, ran.seed, ran.virtual_time).of(execution.scenario)
+    if divergence(execution.scenario, right, execution.trace, ran.virtual_time).explains(finding):
+        return True
+    if not subject.readings:
+        return False
+    # perhaps it lies in its statement: then under its model's the finding vanishes
+    usual = Monitor(load_life_cycle(), stated_by(None, subject.reference).ics)
+    found = usual.judge(execution.scenario, execution.trace).findings
+    return all(other.requirement != finding.requirement for other in found)
 
 
 class _RightTraces:
     """The traces of the framework from which mutants were made."""
 
-    def __init__(self, adapter: str, seed: int) -> None:
-        self._driver = Driver(locate(adapter), seed)
+    def __init__(self, adapter: str, seed: int, virtual_time: bool) -> None:
+        self._driver = Driver(locate(adapter, virtual_time=virtual_time), seed)
         self._known: dict[bytes, Trace] = {}
 
     def close(self) -> None:
@@ -297,9 +303,9 @@ class _RightTraces:
 
 
 @functools.cache
-def _right_traces(adapter: str, seed: int) -> _RightTraces:
+def _right_traces(adapter: str, seed: int, virtual_time: bool) -> _RightTraces:
     """One for each process, which keeps its host from trial to trial and ends it at exit."""
-    traces = _RightTraces(adapter, seed)
+    traces = _RightTraces(adapter, seed, virtual_time)
     atexit.register(traces.close)
     return traces
 

@@ -172,9 +172,11 @@ def _with_policy(declaration: Declaration, definition: str) -> Declaration:
 
 def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
     """The scenario with the declared patience, policies where they can be attached, and no ``read_log`` steps if the log cannot be
-    read back.
+    read back. Patience is not shortened where policies have times: the wait for what they bring lasts as long as they say.
     """
     patience = round(scenario.patience * statement.ixit["patience"] / default_statement().ixit["patience"])
+    if any(policy.settings for declaration in scenario.components.values() for policy in declaration.policies):
+        patience = max(patience, scenario.patience)
     steps = scenario.steps
     if not statement.meets("trace-sink=hook"):
         steps = tuple(step for step in steps if not isinstance(step, s.ReadLog))

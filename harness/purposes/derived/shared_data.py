@@ -231,14 +231,14 @@ def _releasing() -> TestPurpose:
         made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0)
         for _ in range(missed):
             made.update(but=(0,))
-        made.listen(0).read().release(0).read(0).listen(0).pause(_BRIEF).read()
-        made.update(of=(1,)).pause(_BRIEF).read()
+        made.listen(0).read().release(0).read(0).listen(0).wait_in_vain().read()
+        made.update(of=(1,)).wait_in_vain().read()
         scenarios.append((f"{missed} missed", made.end()))
     made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0).update(but=(0,)).write().cancel().release(0)
-    made.listen(0).pause(_BRIEF).read()
+    made.listen(0).wait_in_vain().read()
     scenarios.append(("cancelled while frozen", made.end()))
     made = _with(2, 2, patience=_BRIEF).start().update(0).read().freeze(0).update(0, but=(0,)).update(1, but=(0,))
-    made.release(0).listen(0).pause(_BRIEF).read().read(0).read(0)
+    made.release(0).listen(0).wait_in_vain().read().read(0).read(0)
     scenarios.append(("missed of both writers", made.end()))
     made = _with(2, 2).start().update(0).freeze(0).release(0).update(0).update(1).read()
     scenarios.append(("released, then both writers", made.end()))
@@ -285,8 +285,8 @@ def _notifications() -> TestPurpose:
     for late in (False, True):
         made = _with(1, 2, elsewhere=True, patience=_BRIEF)
         made.start(s.MANAGER) if late else made.start().update().stop(ELSEWHERE)
-        made.update(of=(1,)).start(ELSEWHERE).read(0).update(of=(1,)).listen(0).pause(_BRIEF).read()
-        made.update(of=(1,)).listen(0).pause(_BRIEF).read()
+        made.update(of=(1,)).start(ELSEWHERE).read(0).update(of=(1,)).listen(0).wait_in_vain().read()
+        made.update(of=(1,)).listen(0).wait_in_vain().read()
         scenarios.append((f"one reader {'is started later' if late else 'is stopped'}, and waited for", made.end()))
     for late in (False, True):
         made = _with(1, 2, elsewhere=True)
@@ -362,9 +362,7 @@ def _faults() -> TestPurpose:
         scenarios.append((f"{where} broken{'' if place == s.MANAGER else ', one reader elsewhere'}", made.end()))
     made = _with(1, 2, patience=_BRIEF).start().update().read()
     for _ in range(2):
-        made.write().break_("transport").publish().mend().write().publish().listen(0).pause(
-            _BRIEF
-        ).read().update().read()
+        made.write().break_("transport").publish().mend().write().publish().listen(0).wait_in_vain().read().update().read()
     scenarios.append(("transport broken twice", made.end()))
     return _purpose("faults", "The connection is broken, and mended.", "1-23", scenarios)
 
@@ -375,7 +373,7 @@ def _phases() -> TestPurpose:
     made.read().release(0).update(of=()).pause(_QUIET).update(of=()).pause(_QUIET).read()
     scenarios = [("stopped and started again", made.end())]
     made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0).update(but=(0,)).write().stop().start()
-    made.read().release(0).update(of=(1,)).listen(0).pause(_BRIEF).read()
+    made.read().release(0).update(of=(1,)).listen(0).wait_in_vain().read()
     scenarios.append(("stopped and started again, and waited for", made.end()))
     made = _with(1, 2).start().update().read()
     for _ in range(3):

@@ -29,6 +29,7 @@ INSIDE = "inside"
 """A gate that is closed until it is opened."""
 
 _TYPES = "shared"
+_NOWHERE = "nowhere"
 _OUT, _IN = "set", "get"
 """The ports of writers and of readers."""
 
@@ -196,6 +197,11 @@ class Configuration(ConnectionSteps):
     def listen(self, reader: int) -> Configuration:
         """Wait for a further notification that may come or not."""
         self.steps.append(s.ReachGate(self._gate(reader), total=self.told[reader] + 1))
+        return self
+
+    def wait_in_vain(self) -> Configuration:
+        """Wait until patience has run out: who needs longer than a vendor declares is late."""
+        self.steps.append(s.ReachGate(_NOWHERE))
         return self
 
     def apart(self, *orders: tuple[Literal["write", "publish", "read"], int]) -> Configuration:

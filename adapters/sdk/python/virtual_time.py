@@ -1,0 +1,242 @@
+"""Serves a Python adapter in virtual time: ``python -m ucm_cts.adapters.sdk.python.virtual_time ADAPTER``.
+
+Waits take no time. While a thread of the process runs, its clocks nearly stand still; when all threads wait, they jump to the
+earliest moment that one of them waits for. So what depends on time is exact, and does not depend on the machine.
+
+Neither the adapter nor its framework is changed. What they take from the modules ``time``, ``threading`` and ``queue`` is
+replaced before they are loaded: clocks, ``sleep``, locks and what is built from them, and threads. What waits elsewhere, for
+example for a socket, or in threads of an extension module, is not known here and counts as running; ``datetime`` shows real time.
+"""
+
+from __future__ import annotations
+
+import _thread
+import heapq
+import itertools
+import os
+import queue
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from typing import Any, cast
+
+READING = 10_000
+"""Nanoseconds that one reading of a clock takes, so that a thread that waits by reading it comes to an end."""
+
+_NANOSECONDS = 1_000_000_000
+_FOREVER = -1
+
+
+class _Waiter:
+    """One wait of one thread. ``is_over``: the thread may go on; ``is_late``: because its time has come."""
+
+    __slots__ = ("is_late", "is_over", "wake")
+
+    def __init__(self) -> None:
+        self.wake = _real_lock()
+        self.wake.acquire()
+        self.is_over = False
+        self.is_late = False
+
+
+class VirtualTime:
+    """The time of one process. ``now``: nanoseconds of its monotonic clock."""
+
+    def __init__(self) -> None:
+        self.now = time.monotonic_ns()
+        self._mutex = _real_recursive_lock()  # a finalizer may come here while it is held
+        self._running = 1
+        self._order = itertools.count()
+        self._moments: list[tuple[int, int, _Waiter]] = []
+
+    def read(self) -> int:
+        """The time now, in nanoseconds. Threads whose time has come go on."""
+        with self._mutex:
+            self.now += READING
+            if self._moments and self._moments[0][0] <= self.now:
+                self._wake_first()
+            return self.now
+
+    def sleep(self, seconds: float) -> None:
+        """As ``time.sleep``."""
+        if seconds < 0:
+            raise ValueError("sleep length must be non-negative")
+        self._mutex.acquire()
+        self.park(_Waiter(), seconds)
+
+    def park(self, waiter: _Waiter, seconds: float | None) -> None:
+        """The calling thread waits, for so long at most. It holds the mutex, and releases it."""
+        if seconds is not None:
+            heapq.heappush(self._moments, (self.now + int(seconds * _NANOSECONDS), next(self._order), waiter))
+        self._running -= 1
+        self._go_on()
+        self._mutex.release()
+        waiter.wake.acquire()
+
+    def wake(self, waiter: _Waiter) -> bool:
+        """Let the thread go on that waits there; False if it has gone on already. The caller holds the mutex."""
+        if waiter.is_over:
+            return False
+        waiter.is_over = True
+        self._running += 1
+        waiter.wake.release()
+        return True
+
+    def begin_thread(self) -> None:
+        """One more thread runs."""
+        with self._mutex:
+            self._running += 1
+
+    def end_thread(self) -> None:
+        """The calling thread ends."""
+        with self._mutex:
+            self._running -= 1
+            self._go_on()
+
+    def forget_threads(self) -> None:
+        """In a forked process: only the calling thread is there."""
+        self._mutex = _real_recursive_lock()
+        self._running = 1
+        self._moments = []
+
+    def _go_on(self) -> None:
+        while self._running == 0 and self._moments:
+            self._wake_first()
+
+    def _wake_first(self) -> None:
+        moment, _, waiter = heapq.heappop(self._moments)
+        if not waiter.is_over:
+            self.now = max(self.now, moment)
+            waiter.is_late = self.wake(waiter)
+
+
+class _Lock:
+    """As ``threading.Lock``; threads that wait get it in the order in which they came."""
+
+    __slots__ = ("__weakref__", "_is_held", "_waiters")
+
+    def __init__(self) -> None:
+        self._is_held = False
+        self._waiters: deque[_Waiter] = deque()
+
+    def acquire(self, blocking: bool = True, timeout: float = _FOREVER) -> bool:
+        if not blocking and timeout != _FOREVER:
+            raise ValueError("can't specify a timeout for a non-blocking call")
+        if timeout < 0 and timeout != _FOREVER:
+            raise ValueError("timeout value must be a non-negative number")
+        TIME._mutex.acquire()
+        if not self._is_held or not blocking or timeout == 0:
+            is_free, self._is_held = not self._is_held, True
+            TIME._mutex.release()
+            return is_free
+        waiter = _Waiter()
+        self._waiters.append(waiter)
+        TIME.park(waiter, None if timeout == _FOREVER else timeout)
+        return not waiter.is_late
+
+    def release(self) -> None:
+        with TIME._mutex:
+            if not self._is_held:
+                raise RuntimeError("release unlocked lock")
+            while self._waiters:
+                if TIME.wake(self._waiters.popleft()):
+                    return
+            self._is_held = False
+
+    def locked(self) -> bool:
+        return self._is_held
+
+    def __enter__(self) -> bool:
+        return self.acquire()
+
+    def __exit__(self, *error: object) -> None:
+        self.release()
+
+    def _at_fork_reinit(self) -> None:
+        self._is_held = False
+        self._waiters.clear()
+
+
+_real_lock = _thread.allocate_lock
+_real_recursive_lock = _thread.RLock
+_real_join = threading.Thread.join
+_ends = "_ucm_cts_end"
+
+TIME = VirtualTime()
+
+
+def _counted(start: Callable[..., Any]) -> Callable[..., Any]:
+    """``start``, which starts a thread, so that the thread is counted while it runs."""
+
+    def start_thread(function: Callable[..., Any], *others: Any, **named: Any) -> Any:
+        end = _Lock()
+        end.acquire()
+        owner = getattr(function, "__self__", None)
+        if isinstance(owner, threading.Thread):
+            setattr(owner, _ends, end)
+
+        def run(*given: Any, **more: Any) -> None:
+            try:
+                function(*given, **more)
+            finally:
+                end.release()
+                TIME.end_thread()
+
+        TIME.begin_thread()
+        try:
+            return start(run, *others, **named)
+        except BaseException:
+            TIME.end_thread()
+            raise
+
+    return start_thread
+
+
+def _join(thread: threading.Thread, timeout: float | None = None) -> None:
+    end = cast(_Lock | None, getattr(thread, _ends, None))
+    if end is not None and thread is not threading.current_thread():
+        if not end.acquire(timeout=_FOREVER if timeout is None else max(timeout, 0)):
+            return
+        end.release()
+        timeout = None
+    _real_join(thread, timeout)
+
+
+def _replace(module: object, replacements: Mapping[str, object]) -> None:
+    for name, replacement in replacements.items():
+        if hasattr(module, name):
+            setattr(module, name, replacement)
+
+
+def install() -> None:
+    """Put this process into virtual time, for good. Its only thread calls this before anything else is loaded."""
+    offset = time.time_ns() - time.monotonic_ns()
+
+    def seconds() -> float:
+        return TIME.read() / _NANOSECONDS
+
+    def calendar_ns() -> int:
+        return TIME.read() + offset
+
+    clocks = {"monotonic_ns": TIME.read, "perf_counter_ns": TIME.read, "monotonic": seconds, "perf_counter": seconds}
+    calendar = {"time_ns": calendar_ns, "time": lambda: calendar_ns() / _NANOSECONDS}
+    starts = {
+        name: _counted(getattr(_thread, name))
+        for name in ("start_new_thread", "start_joinable_thread")
+        if hasattr(_thread, name)
+    }
+    _replace(time, {**clocks, **calendar, "sleep": TIME.sleep})
+    _replace(_thread, {"allocate_lock": _Lock, **starts})
+    _replace(threading, {"Lock": _Lock, "_allocate_lock": _Lock, "_CRLock": None, "_time": seconds})
+    _replace(threading, {f"_{name}": start for name, start in starts.items()})
+    _replace(threading.Thread, {"join": _join})
+    _replace(queue, {"SimpleQueue": queue._PySimpleQueue, "time": seconds})  # type: ignore[attr-defined]
+    os.register_at_fork(after_in_child=TIME.forget_threads)
+
+
+if __name__ == "__main__":
+    install()
+    from ucm_cts.adapters.sdk.python.host import main
+
+    main()
