@@ -30,6 +30,7 @@ MORE = {
     "--ics": "statement.md",
     "--known-failures": "known-failures.md",
     "--no-sandbox": "verdicts.md#isolation",
+    "--virtual-time": "virtual-time.md",
     "--incident-time": "verdicts.md",
     "--repeat": "verdicts.md",
     "--systematic": "systematic.md",

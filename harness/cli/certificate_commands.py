@@ -142,6 +142,7 @@ def certify(
             ics=ics,
             repeat=1,
             in_process=False,
+            virtual_time=False,
             sandbox=not no_sandbox,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,

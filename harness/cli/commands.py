@@ -88,6 +88,7 @@ def cli() -> None:
     help="Run everything so often, with another seed each time; a verdict that changes is unstable.",
 )
 @options.in_process_option
+@options.virtual_time_option
 @options.no_sandbox_option
 @options.timeout_option
 @options.memory_option
@@ -110,6 +111,7 @@ def run(
     toolchain: Path | None,
     repeat: int,
     in_process: bool,
+    virtual_time: bool,
     no_sandbox: bool,
     timeout: float,
     memory: int,
@@ -155,6 +157,7 @@ def run(
             ics=ics,
             repeat=repeat,
             in_process=in_process,
+            virtual_time=virtual_time,
             sandbox=not no_sandbox,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,
@@ -233,6 +236,7 @@ def explain(topic: str) -> None:
 @options.adapter_argument
 @options.ics_option
 @options.in_process_option
+@options.virtual_time_option
 @options.no_sandbox_option
 @options.seed_option
 @options.timeout_option
@@ -241,6 +245,7 @@ def replay(
     adapter: str,
     ics: Path | None,
     in_process: bool,
+    virtual_time: bool,
     no_sandbox: bool,
     seed: int | None,
     timeout: float,
@@ -254,7 +259,7 @@ def replay(
             f"{file} is a model and no scenario; the report shows the command that gives it to the tool chain again"
         )
     scripts = read_scripts(file, may_overlap=True)
-    endpoint = locate(adapter, in_process, sandbox=not no_sandbox)
+    endpoint = locate(adapter, in_process, sandbox=not no_sandbox, virtual_time=virtual_time)
     monitor = Monitor(load_life_cycle(), stated_by(ics, adapter, not no_sandbox).ics)
     titles = {requirement.id: requirement.title for requirement in load_requirements()}
     console = Output()

@@ -49,6 +49,7 @@ FOR_INCIDENTS = 0.5
 )
 @options.ics_option
 @options.in_process_option
+@options.virtual_time_option
 @options.no_sandbox_option
 @options.timeout_option
 def explore(
@@ -60,6 +61,7 @@ def explore(
     databases: Sequence[str],
     ics: Path | None,
     in_process: bool,
+    virtual_time: bool,
     no_sandbox: bool,
     timeout: float,
 ) -> None:
@@ -73,7 +75,7 @@ def explore(
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     incident_seconds = FOR_INCIDENTS * budget.amount if budget.is_time else Limits.incident_seconds
     limits = Limits(timeout, incident_seconds=incident_seconds)
-    endpoint = locate(adapter, in_process, sandbox=not no_sandbox, hidden=[out])
+    endpoint = locate(adapter, in_process, sandbox=not no_sandbox, hidden=[out], virtual_time=virtual_time)
     with (
         ends_like_interrupts() as interrupts,
         report_folder(out, [FILE]) as folder,

@@ -57,6 +57,7 @@ class FrameworkRun:
     ics: Path | None
     repeat: int
     in_process: bool
+    virtual_time: bool
     limits: Limits
     systematic: int
     explore: Budget
@@ -90,7 +91,10 @@ def certify_framework(wanted: FrameworkRun, keeper: Keeper | None = None) -> NoR
     With a ``keeper`` scenarios that failed in earlier runs are not tried again: what is run follows from the arguments.
     """
     console = Output()
-    endpoint = locate(wanted.adapter, wanted.in_process, sandbox=wanted.sandbox, hidden=[wanted.out, *wanted.hidden])
+    hidden = [wanted.out, *wanted.hidden]
+    endpoint = locate(
+        wanted.adapter, wanted.in_process, sandbox=wanted.sandbox, hidden=hidden, virtual_time=wanted.virtual_time
+    )
     known = known_today(wanted.known_failures)
     statement = stated_by(wanted.ics, wanted.adapter, wanted.sandbox)
     offered = purposes_for(statement, wanted.profile, wanted.systematic)
@@ -292,7 +296,7 @@ def _measured(plan: _Plan) -> tuple[object, ...]:
             (purpose.id, purpose.requirements, purpose.scenarios)
             for purpose in sorted(plan.purposes, key=lambda p: p.id)
         ],
-        (endpoint.text, endpoint.kind, endpoint.target, endpoint.in_process),
+        (endpoint.text, endpoint.kind, endpoint.target, endpoint.in_process, endpoint.virtual_time),
         hashlib.sha256(target.read_bytes()).hexdigest() if target.is_file() else "",
         (wanted.profile, wanted.expression, wanted.systematic),
         msgspec.structs.replace(plan.statement, folder=""),

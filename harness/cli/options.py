@@ -136,6 +136,11 @@ framework_profile_option = click.option(
 in_process_option = click.option(
     "--in-process", is_flag=True, help="Run the product in the process of ucm-cts: for debuggers and sanitizers."
 )
+virtual_time_option = click.option(
+    "--virtual-time",
+    is_flag=True,
+    help="Run a Python adapter in virtual time, in which waits take no time; a report says so.",
+)
 no_sandbox_option = click.option(
     "--no-sandbox", is_flag=True, help="Run the product without a sandbox; a report says so."
 )
@@ -195,7 +200,17 @@ everything_option = click.option(
 )
 
 
-OF_FRAMEWORKS = ("repeat", "in_process", "timeout", "memory", "incident_time", "systematic", "explore", "resume")
+OF_FRAMEWORKS = (
+    "repeat",
+    "in_process",
+    "virtual_time",
+    "timeout",
+    "memory",
+    "incident_time",
+    "systematic",
+    "explore",
+    "resume",
+)
 """Options that tool chains do not have."""
 
 

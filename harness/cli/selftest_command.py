@@ -18,6 +18,9 @@ from ucm_cts.harness.cli.options import out_folder
     "--whole", is_flag=True, help="Run all of profile core on each subject, not only the clauses that it concerns."
 )
 @click.option(
+    "--real-time", is_flag=True, help="Run subjects in Python in real time, which takes as long as they wait."
+)
+@click.option(
     "--jobs",
     type=click.IntRange(min=1),
     default=2 * (os.cpu_count() or 1),
@@ -34,6 +37,7 @@ def selftest(
     names_wanted: Sequence[str],
     quick: bool,
     whole: bool,
+    real_time: bool,
     jobs: int,
     seed: int,
     out: Path,
@@ -49,4 +53,4 @@ def selftest(
     """
     from ucm_cts.harness.cli.selftest_run import Wanted, examine
 
-    examine(Wanted(tuple(names_wanted), quick, whole, jobs, seed, out, toolchains, listed))
+    examine(Wanted(tuple(names_wanted), quick, whole, real_time, jobs, seed, out, toolchains, listed))

@@ -40,6 +40,7 @@ class Wanted:
     names: tuple[str, ...]
     quick: bool
     whole: bool
+    real_time: bool
     jobs: int
     seed: int
     out: Path
@@ -68,7 +69,7 @@ def examine(wanted: Wanted) -> None:
     conduct = SelfTest(
         [subject for subject in chosen if subject.breaks],
         [subject for subject in chosen if not subject.breaks and not wanted.quick],
-        Thoroughness(wanted.seed, wanted.whole, wanted.quick),
+        Thoroughness(wanted.seed, wanted.whole, wanted.quick, real_time=wanted.real_time),
         wanted.jobs,
         models,
         cheats if wanted.names or not wanted.quick else [],

@@ -113,7 +113,9 @@ class Driver(Disguising):
             "which the text leaves open; they fail nothing"
         )
         exposed = f"isolation: process; hosts could reach the harness and its files, because {self._hosts.no_sandbox}"
+        unreal = "virtual time: waits took no time, so this run does not show how punctual the product is"
         said = (
+            (unreal, self._endpoint.virtual_time),
             (exposed, bool(self._hosts.no_sandbox)),
             (shadowed, bool(others)),
             (behind, bool(left)),

@@ -371,6 +371,13 @@ def test_python_guide_other_ways(here: Path) -> None:
     write_files("docs/scenarios.md")
     (debugged,) = [c for c in commands("ucm-cts replay") if "my_adapter" in c]
     assert "no findings" in shell(debugged.replace("FILE", "example.yaml"))
+    (virtual,) = {c for c in commands("ucm-cts run") if "--virtual-time" in c}
+    assert "no findings" in ucm_cts("replay", "example.yaml", "my_adapter:BeansAdapter", "--virtual-time").out
+    ucm_cts(*virtual.split()[1:], "--out", "virtual")
+    report = report_of(here / "virtual")
+    assert "virtual time" in report["warnings"][0]
+    ucm_cts("run", "my_adapter:BeansAdapter", "--out", "real")
+    assert blameless(report) == blameless(report_of(here / "real"))
     (served,) = commands("python -m ucm_cts.adapters.sdk.python.host")
     command = [sys.executable, *served.replace(":4000", ":0").split()[1:]]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:

@@ -94,7 +94,9 @@ def _compare_with_models(
 def _changes_selection(option: str) -> bool:
     """Whether a value of ``option`` selects other test purposes than its first value."""
     values = load_options()[option]
-    return len({tuple(purpose.id for purpose in load_purposes("extensions", f"{option}={value}")) for value in values}) > 1
+    return (
+        len({tuple(purpose.id for purpose in load_purposes("extensions", f"{option}={value}")) for value in values}) > 1
+    )
 
 
 def _judge_traces(option: str, consulted: set[str]) -> Iterator[None]:

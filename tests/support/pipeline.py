@@ -105,6 +105,7 @@ def check_killed(mutant: Mutant) -> None:
     result = examine_mutant(all_mutants()[mutant.name], Thoroughness(quick=True))
     assert result.is_killed, (result.survives, result.trouble, result.incidents)
     assert not result.spills
+    assert not result.wrongly_said
 
 
 def check_wording(scenario: Scenario, findings: Iterable[Finding]) -> None:

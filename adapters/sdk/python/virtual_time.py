@@ -47,12 +47,15 @@ class VirtualTime:
         self.now = time.monotonic_ns()
         self._mutex = _real_recursive_lock()  # a finalizer may come here while it is held
         self._running = 1
+        self._waking = 0
         self._order = itertools.count()
         self._moments: list[tuple[int, int, _Waiter]] = []
 
     def read(self) -> int:
-        """The time now, in nanoseconds. Threads whose time has come go on."""
+        """The time now, in nanoseconds. Threads whose time has come go on; none passes until they do."""
         with self._mutex:
+            if self._waking:
+                return self.now
             self.now += READING
             if self._moments and self._moments[0][0] <= self.now:
                 self._wake_first()
@@ -73,6 +76,8 @@ class VirtualTime:
         self._go_on()
         self._mutex.release()
         waiter.wake.acquire()
+        with self._mutex:
+            self._waking -= 1
 
     def wake(self, waiter: _Waiter) -> bool:
         """Let the thread go on that waits there; False if it has gone on already. The caller holds the mutex."""
@@ -80,6 +85,7 @@ class VirtualTime:
             return False
         waiter.is_over = True
         self._running += 1
+        self._waking += 1
         waiter.wake.release()
         return True
 
@@ -98,6 +104,7 @@ class VirtualTime:
         """In a forked process: only the calling thread is there."""
         self._mutex = _real_recursive_lock()
         self._running = 1
+        self._waking = 0
         self._moments = []
 
     def _go_on(self) -> None:

@@ -1,0 +1,190 @@
+"""Hosts in virtual time: waits take none, and are as long as they are asked to be."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Paused, Timeout, Trace
+from ucm_cts.harness.execution.driver import Driver
+from ucm_cts.harness.hosting.locate import WrongUse, locate
+
+HOUR = 3_600_000
+
+PROGRAM = """
+from ucm_cts.adapters.sdk.python.virtual_time import READING, install
+install()
+import concurrent.futures, os, queue, threading, time
+began = time.monotonic()
+seen = []
+
+def passed():
+    return round(time.monotonic() - began, 3)
+
+def later(seconds, what):
+    time.sleep(seconds)
+    seen.append((what, passed()))
+"""
+
+
+def shown(text: str) -> str:
+    """What a program prints that runs in virtual time."""
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM + textwrap.dedent(text)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert not done.stderr, done.stderr
+    return done.stdout.strip()
+
+
+def trace(*steps: s.Step, patience: int = 2000) -> Trace:
+    asked = s.Scenario({"sink": s.Declaration(("in",))}, steps, patience)
+    with Driver(locate("reference-py", virtual_time=True), 1) as driver:
+        (answer,) = driver.run([("one", asked)])
+    assert answer.incident is None
+    return answer.trace
+
+
+def milliseconds(events: Trace) -> float:
+    return (events[-1].t - events[0].t) / 1e6
+
+
+def test_an_hour_passes_at_once() -> None:
+    events = trace(s.AddComponent("sink"), s.Pause(HOUR), s.Start())
+    pause = next(number for number, event in enumerate(events) if isinstance(event, Paused))
+    assert HOUR <= milliseconds(events) < HOUR + 10
+    assert HOUR <= milliseconds(events[pause - 1 : pause + 1]) < HOUR + 1
+
+
+def test_patience_runs_out_at_once() -> None:
+    events = trace(s.ReachGate("nowhere"), s.Start(), patience=HOUR)
+    assert isinstance(events[0], Timeout)
+    again = trace(s.Start(), s.ReachGate("nowhere"), patience=HOUR)
+    assert HOUR <= milliseconds(again) < HOUR + 10
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("time.sleep(5); print(passed())", "5.0"),
+        ("print(threading.Lock().acquire(timeout=3), passed())", "True 0.0"),
+        ("lock = threading.Lock(); lock.acquire(); print(lock.acquire(timeout=3), passed())", "False 3.0"),
+        ("lock = threading.Lock(); lock.acquire(); print(lock.acquire(False), lock.acquire(timeout=0), passed())", "False False 0.0"),
+        ("lock = threading.RLock(); print(bool(lock.acquire() and lock.acquire()), passed())", "True 0.0"),
+        ("print(threading.Event().wait(100), passed())", "False 100.0"),
+        (
+            "queued = queue.SimpleQueue(); threading.Timer(2, queued.put, [7]).start(); print(queued.get(), passed())",
+            "7 2.0",
+        ),
+        ("print(queue.Queue().empty(), threading.Semaphore(0).acquire(timeout=4), passed())", "True False 4.0"),
+        (
+            """
+            threads = [threading.Thread(target=later, args=(n, n)) for n in (3, 1, 2)]
+            for thread in threads: thread.start()
+            for thread in threads: thread.join()
+            print(seen, passed())
+            """,
+            "[(1, 1.0), (2, 2.0), (3, 3.0)] 3.0",
+        ),
+        (
+            """
+            thread = threading.Thread(target=later, args=(9, "late"))
+            thread.start()
+            thread.join(4)
+            print(thread.is_alive(), passed())
+            thread.join()
+            print(thread.is_alive(), passed())
+            """,
+            "True 4.0\nFalse 9.0",
+        ),
+        (
+            """
+            lock = threading.Lock()
+            def hold(name):
+                with lock:
+                    later(1, name)
+            threads = [threading.Thread(target=hold, args=(n,)) for n in "abc"]
+            for thread in threads: thread.start()
+            for thread in threads: thread.join()
+            print(seen)
+            """,
+            "[('a', 1.0), ('b', 2.0), ('c', 3.0)]",
+        ),
+        (
+            """
+            together = threading.Barrier(2)
+            threading.Thread(target=lambda: (time.sleep(6), together.wait())).start()
+            together.wait()
+            print(passed())
+            """,
+            "6.0",
+        ),
+        (
+            """
+            with concurrent.futures.ThreadPoolExecutor(2) as pool:
+                print(sum(pool.map(lambda n: time.sleep(n) or n, (1, 2, 3))), passed())
+            """,
+            "6 4.0",
+        ),
+        (
+            """
+            threading.Thread(target=later, args=(0.05, "sleeper")).start()
+            while passed() < 0.2:
+                pass
+            print(seen, passed())
+            """,
+            "[('sleeper', 0.05)] 0.2",
+        ),
+        (
+            """
+            wall, own = time.time(), time.monotonic()
+            time.sleep(86400)
+            print(round(time.time() - wall), round(time.monotonic() - own), round(time.perf_counter() - own))
+            """,
+            "86400 86400 86400",
+        ),
+        (
+            """
+            threading.Thread(target=time.sleep, args=(50,), daemon=True).start()
+            child = os.fork()
+            if child == 0:
+                time.sleep(7)
+                os._exit(int(passed()))
+            print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+            """,
+            "7",
+        ),
+        ("print(time.monotonic_ns() < time.monotonic_ns() <= time.monotonic_ns() + READING)", "True"),
+        (
+            """
+            try: threading.Lock().release()
+            except RuntimeError as error: print(error)
+            try: time.sleep(-1)
+            except ValueError as error: print(error)
+            """,
+            "release unlocked lock\nsleep length must be non-negative",
+        ),
+    ],
+)  # fmt: skip
+def test_waits_are_as_long_as_they_are_asked_to_be(text: str, printed: str) -> None:
+    assert shown(text) == printed
+
+
+@pytest.mark.parametrize("adapter", ["reference-cpp", "tcp://localhost:1"])
+def test_only_python_has_virtual_time(adapter: str) -> None:
+    with pytest.raises(
+        WrongUse, match=r"cannot run in virtual time: that takes a Python adapter, in a process of its own|compile"
+    ):
+        locate(adapter, virtual_time=True)
+
+
+def test_not_in_the_harness_s_own_process() -> None:
+    with pytest.raises(WrongUse, match="in a process of its own"):
+        locate("reference-py", in_process=True, virtual_time=True)
