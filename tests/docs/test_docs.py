@@ -373,10 +373,11 @@ def test_python_guide_other_ways(here: Path) -> None:
     assert "no findings" in shell(debugged.replace("FILE", "example.yaml"))
     (virtual,) = {c for c in commands("ucm-cts run") if "--virtual-time" in c}
     assert "no findings" in ucm_cts("replay", "example.yaml", "my_adapter:BeansAdapter", "--virtual-time").out
-    ucm_cts(*virtual.split()[1:], "--out", "virtual")
+    alike = ("--seed", "1", "--explore", "0s")
+    ucm_cts(*virtual.split()[1:], *alike, "--out", "virtual")
     report = report_of(here / "virtual")
     assert "virtual time" in report["warnings"][0]
-    ucm_cts("run", "my_adapter:BeansAdapter", "--out", "real")
+    ucm_cts("run", "my_adapter:BeansAdapter", *alike, "--out", "real")
     assert blameless(report) == blameless(report_of(here / "real"))
     (served,) = commands("python -m ucm_cts.adapters.sdk.python.host")
     command = [sys.executable, *served.replace(":4000", ":0").split()[1:]]
