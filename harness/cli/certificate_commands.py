@@ -143,6 +143,7 @@ def certify(
             repeat=1,
             in_process=False,
             virtual_time=False,
+            jobs=1,  # a record has one host after the other
             sandbox=not no_sandbox,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,

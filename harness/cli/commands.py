@@ -89,6 +89,7 @@ def cli() -> None:
 )
 @options.in_process_option
 @options.virtual_time_option
+@options.jobs_option
 @options.no_sandbox_option
 @options.timeout_option
 @options.memory_option
@@ -112,6 +113,7 @@ def run(
     repeat: int,
     in_process: bool,
     virtual_time: bool,
+    jobs: int | None,
     no_sandbox: bool,
     timeout: float,
     memory: int,
@@ -158,6 +160,7 @@ def run(
             repeat=repeat,
             in_process=in_process,
             virtual_time=virtual_time,
+            jobs=jobs or options.usual_jobs(profile),
             sandbox=not no_sandbox,
             limits=Limits(timeout, memory, incident_seconds=incident_time),
             systematic=systematic,

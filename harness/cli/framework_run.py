@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import time
 from collections.abc import Sequence
@@ -58,6 +59,7 @@ class FrameworkRun:
     repeat: int
     in_process: bool
     virtual_time: bool
+    jobs: int
     limits: Limits
     systematic: int
     explore: Budget
@@ -191,7 +193,7 @@ class _Series:
         which = f"run {number} of {of}"
         try:
             keeper = self._plan.keeper
-            make = keeper.driver if keeper is not None else Driver
+            make = keeper.driver if keeper is not None else functools.partial(Driver, jobs=self._wanted.jobs)
             with make(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
                 with self._interrupts.permitted():
                     identity = driver.identity

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -141,6 +142,12 @@ virtual_time_option = click.option(
     is_flag=True,
     help="Run a Python adapter in virtual time, in which waits take no time; a report says so.",
 )
+jobs_option = click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    show_default="two for each processor; 1 in profile container",
+    help="How many hosts there may be at once: scenarios that wait do so side by side.",
+)
 no_sandbox_option = click.option(
     "--no-sandbox", is_flag=True, help="Run the product without a sandbox; a report says so."
 )
@@ -200,10 +207,16 @@ everything_option = click.option(
 )
 
 
+def usual_jobs(profile: str) -> int:
+    """How many hosts a run has at once if the user does not say: few scenarios of profile container wait."""
+    return 1 if profile == "container" else 2 * (os.cpu_count() or 1)
+
+
 OF_FRAMEWORKS = (
     "repeat",
     "in_process",
     "virtual_time",
+    "jobs",
     "timeout",
     "memory",
     "incident_time",

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Generator, Iterable, Iterator
+from concurrent.futures import Future
 from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass, replace
 from typing import Self
@@ -13,7 +14,7 @@ from typing import Self
 import msgspec
 
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
-from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.scenario import Scenario, Stress
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.harness.execution.calls_apart import with_calls_apart
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
@@ -30,8 +31,9 @@ from ucm_cts.harness.execution.host_clock import HostClock
 from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
-from ucm_cts.harness.hosting.hosts import Hosts, Limits
+from ucm_cts.harness.hosting.hosts import Hosts, Limits, waits
 from ucm_cts.harness.hosting.locate import Endpoint, file_named, namesakes
+from ucm_cts.harness.hosting.side_hosts import SideHosts
 from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.tally import Cause
 from ucm_cts.harness.results.unanswered_calls import is_left_open
@@ -41,6 +43,9 @@ __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 
 MOST_UNTRIED = 32
 """How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
+
+MOST_AHEAD = 8
+"""For each side host, how many scenarios in a row are given to them before their answers are awaited."""
 
 _BETWEEN_COUNTS = 0.02
 
@@ -57,9 +62,10 @@ class Driver(Disguising):
     """Runs scenarios on the implementation behind ``endpoint``; names and payloads are drawn from ``seed``.
 
     Use it in a ``with`` statement: from then until its end it has hosts, and ``gaps`` notes when the machine stood still.
+    ``jobs``: how many hosts there may be at once; all but one take scenarios that wait, until one of these meets an incident.
     """
 
-    def __init__(self, endpoint: Endpoint, seed: int, limits: Limits | None = None) -> None:
+    def __init__(self, endpoint: Endpoint, seed: int, limits: Limits | None = None, jobs: int = 1) -> None:
         super().__init__(seed)
         self._hosts = Hosts(endpoint, limits)
         self._endpoint = endpoint
@@ -68,7 +74,10 @@ class Driver(Disguising):
         self._numbers = itertools.count()
         self._incident_time = IncidentTime(self._hosts.limits.incident_seconds)
         self._is_near = endpoint.kind in ("python", "executable") and not endpoint.virtual_time
-        self._clock: tuple[int, HostClock] = (0, HostClock(self._is_near))
+        self._clocks: dict[int, HostClock] = {}
+        self._side_hosts = jobs - 1 if endpoint.kind in ("python", "executable") and not endpoint.in_process else 0
+        self._side: SideHosts | None = None
+        self._left_behind: Counter[str] = Counter()
         self._left_waiting = 0
         self._ordinary: deque[Scenario] = deque(maxlen=LONGEST_HISTORY)
         self._calls_apart = False
@@ -80,6 +89,7 @@ class Driver(Disguising):
 
     def __exit__(self, *error: object) -> None:
         self.gaps.close()
+        self._end_side_hosts()
         self._hosts.close()
 
     @property
@@ -104,7 +114,7 @@ class Driver(Disguising):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the vendor should know of the adapter, a sentence each."""
-        left = self._hosts.left_behind
+        left = self._hosts.left_behind + self._left_behind
         others = tuple(namesakes(self._endpoint, self.adapter_file))
         shadowed = f"the adapter is {self.adapter_file}; another of its name is {', '.join(others)}"
         behind = f"hosts left {left.total()} processes behind, which were ended: {', '.join(sorted(left)[:_SHOWN])}"
@@ -136,8 +146,8 @@ class Driver(Disguising):
 
         def runs() -> Iterator[Run]:
             nonlocal more
-            left_out = 0
-            while left_out < MOST_UNTRIED:
+            left_out = ahead = 0
+            while left_out < MOST_UNTRIED and ahead <= MOST_AHEAD * self._side_hosts:
                 case = returned.popleft() if returned else self._next(source)
                 if case is None:
                     more = False
@@ -145,27 +155,39 @@ class Driver(Disguising):
                 if self._calls_apart and case.plain is None:
                     case = self._apart(case)
                 untried = None if insist else self._incident_time.not_tried(case.scenario)
-                waiting.append(replace(case, untried=untried))
+                reply = case.ahead or (self._ahead(case.run) if untried is None else None)
+                waiting.append(replace(case, untried=untried, ahead=reply))
                 left_out = left_out + 1 if untried is not None else 0
-                if untried is None:
+                ahead = ahead + 1 if reply is not None else 0
+                if untried is None and reply is None:
                     yield case.run
 
-        def untried() -> Iterator[Answer]:
-            while waiting and waiting[0].untried is not None:
+        def elsewhere() -> Iterator[Answer]:
+            """The answers to those that the pipeline's own host does not get."""
+            while waiting and (waiting[0].untried is not None or waiting[0].ahead is not None):
                 case = waiting.popleft()
-                yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
+                if case.untried is not None:
+                    yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
+                    continue
+                answer = self._answered_ahead(case, insist)
+                if answer is None:  # from here on there is one host again
+                    waiting.appendleft(case)
+                    self._end_side_hosts()
+                    return
+                self._note(answer)
+                yield answer
 
         while more or returned:
             lost = False
             with closing(self._hosts.run(runs())) as replies:
                 began = time.monotonic()
                 for reply in replies:
-                    yield from untried()
+                    yield from elsewhere()
+                    if waiting and waiting[0].ahead is not None:
+                        break
                     case = waiting.popleft()
                     answer = self._examine(case, reply, insist)
-                    if _is_ordinary(answer):
-                        self._ordinary.append(answer.disguised)
-                    self._incident_time.note_skips(answer.disguised, answer.trace if answer.incident is None else ())
+                    self._note(answer)
                     lost = isinstance(reply.reply, Incident) and reply.reply.kind in _HOST_IS_GONE
                     if answer.incident is not None and (lost or answer.disguised is not case.run.scenario):
                         took = time.monotonic() - began
@@ -174,9 +196,48 @@ class Driver(Disguising):
                     if lost:
                         break
                     began = time.monotonic()
-            yield from untried()
-            returned.extendleft(reversed(waiting))  # these were sent to a host that has ended
+            yield from elsewhere()
+            if self._side is None:
+                returned.extendleft(replace(case, ahead=None) for case in reversed(waiting))
+            else:
+                returned.extendleft(reversed(waiting))  # these were sent to a host that has ended
             waiting.clear()
+
+    def _note(self, answer: Answer) -> None:
+        """What later runs depend on."""
+        if _is_ordinary(answer):
+            self._ordinary.append(answer.disguised)
+        self._incident_time.note_skips(answer.disguised, answer.trace if answer.incident is None else ())
+
+    def _ahead(self, run: Run) -> Future[HostAnswer] | None:
+        """The answer of a side host to come; None if the scenario is none that waits, or there are none."""
+        if (
+            not self._side_hosts
+            or not waits(run.scenario)
+            or any(isinstance(one, Stress) for one in run.scenario.steps)
+        ):
+            return None
+        if self._side is None:
+            self._side = SideHosts(self._endpoint, self._hosts.limits, self._side_hosts, self.identity)
+        return self._side.submit(run)
+
+    def _answered_ahead(self, case: _Case, insist: bool) -> Answer | None:
+        """What a side host has answered; None if it was no trace that can be taken as it is."""
+        assert case.ahead is not None
+        try:
+            reply = case.ahead.result()
+        except Exception:  # noqa: BLE001 - whatever kept it from answering, the pipeline's own host is asked
+            return None
+        if not isinstance(reply.reply, Traced) or reply.reply.stuck:
+            return None
+        answer = self._examine(case, reply, insist)
+        return answer if answer.incident is None else None
+
+    def _end_side_hosts(self) -> None:
+        if self._side is not None:
+            self._side.close()
+            self._left_behind += self._side.left_behind
+        self._side, self._side_hosts = None, 0
 
     def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
         case = next(source, None)
@@ -273,11 +334,9 @@ class Driver(Disguising):
 
     def _out_of_time(self, answer: HostAnswer) -> str | None:
         """Why the times of the trace cannot be true; None if they can."""
-        received = time.monotonic_ns()
-        if self._clock[0] != answer.host:
-            self._clock = answer.host, HostClock(self._is_near)
+        clock = self._clocks.setdefault(answer.host, HostClock(self._is_near))
         events = answer.reply.events if isinstance(answer.reply, Traced) else ()
-        return self._clock[1].contradiction(events, answer.sent, received)
+        return clock.contradiction(events, answer.sent, answer.received)
 
     def _run_again(self, case: _Case, first: Incident | None) -> Answer:
         """Run the scenario once more and have each event sent as it happens, to find what led to the ``first`` incident, if any.
@@ -327,6 +386,7 @@ class _Case:
     """One scenario in the pipeline: the message for the host, or the reason for leaving it out.
 
     ``plain``: where its calls are apart, the scenario as it is written.
+    ``ahead``: the answer of a side host to come.
     """
 
     name: str
@@ -334,3 +394,4 @@ class _Case:
     run: Run
     untried: Incident | None = None
     plain: Scenario | None = None
+    ahead: Future[HostAnswer] | None = None

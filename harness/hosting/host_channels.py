@@ -103,6 +103,9 @@ class Opener(Protocol):
     def hint(self, text: str) -> str:
         """Why a sandbox may be the reason for what ``text`` says; empty if nothing says so."""
 
+    def end_all(self) -> None:
+        """Kill all hosts and the process that forks them, if these are processes of ours."""
+
     def close(self) -> None:
         """End all hosts and the process that forks them."""
 

@@ -72,7 +72,7 @@ class Answer(msgspec.Struct, frozen=True):
     ``happened``: events that a streamed run sent ahead: after an incident, the known part of the trace.
     ``host``: the number of the host.
     ``printed``: what the host printed meanwhile.
-    ``sent``: when the host got the message, in nanoseconds of ``time.monotonic_ns``.
+    ``sent``, ``received``: when the host got the message, and when its answer was there, in nanoseconds of ``time.monotonic_ns``.
     """
 
     id: int
@@ -80,22 +80,24 @@ class Answer(msgspec.Struct, frozen=True):
     happened: tuple[Event, ...] = ()
     host: int = 0
     sent: int = 0
+    received: int = 0
     printed: str = ""
 
 
 class Hosts:
     """The hosts behind ``endpoint``, one at a time. Close it, or use it in a ``with`` statement: nothing stays behind.
 
+    ``welcome``: what the first host must say of the product, if that is known.
     Raises ``WrongUse`` from ``welcome`` and ``run`` if the endpoint leads to no adapter, ``HostUnavailable`` if no first
     host can be had.
     """
 
-    def __init__(self, endpoint: Endpoint, limits: Limits | None = None) -> None:
+    def __init__(self, endpoint: Endpoint, limits: Limits | None = None, welcome: m.Welcome | None = None) -> None:
         self._endpoint = endpoint
         self.limits = limits or Limits()
         self._opener: Opener | None = None
         self._host: Host | None = None
-        self._welcome: m.Welcome | None = None
+        self._welcome = welcome
         self._opened = 0
         self.left_behind: Counter[str] = Counter()
         """The command lines of processes that hosts left behind, which were ended, and how many of each."""
@@ -152,7 +154,9 @@ class Hosts:
                     current.submit(m.encode(run))
                 sent = len(waiting)
                 host = self._opened
-                answer = msgspec.structs.replace(self._receive(waiting[0]), host=host, sent=when.popleft())
+                answer = self._receive(waiting[0])
+                times = {"sent": when.popleft(), "received": time.monotonic_ns()}
+                answer = msgspec.structs.replace(answer, host=host, **times)
                 waiting.popleft()
                 sent -= 1
                 yield answer
@@ -244,6 +248,11 @@ class Hosts:
             self._opener.close()
             self.left_behind = self._opener.left_behind
             self._opener = None
+
+    def end_all(self) -> None:
+        """Kill the host and everything that was started for it. May be called while another thread waits for an answer."""
+        if self._opener is not None:
+            self._opener.end_all()
 
     def _open(self) -> None:
         self.discard()

@@ -37,8 +37,11 @@ class Connector:
     def hint(self, text: str) -> str:
         return ""
 
-    def close(self) -> None:
+    def end_all(self) -> None:
         """Nothing to end: the host runs on."""
+
+    def close(self) -> None:
+        """The same."""
 
     def _connect(self) -> socket.socket:
         if self._endpoint.kind == "unix":

@@ -1,0 +1,62 @@
+"""Further hosts, which run scenarios ahead of the pipeline: those that mostly wait can wait side by side."""
+
+from __future__ import annotations
+
+import threading
+from collections import Counter
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
+
+import msgspec
+
+from ucm_cts.adapters.contract import messages as m
+from ucm_cts.harness.hosting.host_watch import Limits
+from ucm_cts.harness.hosting.hosts import Answer, Hosts
+from ucm_cts.harness.hosting.locate import Endpoint
+
+
+class SideHosts:
+    """``number`` places, each with a host of its own, which are started when they are needed. Close it: nothing stays behind.
+
+    ``welcome``: what every host must say of the product. A host has no time in common with others but that of the machine, so
+    its scenarios are those that need little of it.
+    """
+
+    def __init__(self, endpoint: Endpoint, limits: Limits, number: int, welcome: m.Welcome) -> None:
+        self.number = number
+        self._places = [Hosts(endpoint, limits, welcome) for _ in range(number)]
+        self._free = list(range(number))
+        self._lock = threading.Lock()
+        self._pool = ThreadPoolExecutor(number, "side host")
+
+    def submit(self, run: m.Run) -> Future[Answer]:
+        """Run it as soon as a place is free. The future raises whatever keeps a host from answering."""
+        return self._pool.submit(self._run, run)
+
+    @property
+    def left_behind(self) -> Counter[str]:
+        """As of ``Hosts``, of all places."""
+        return sum((hosts.left_behind for hosts in self._places), Counter())
+
+    def close(self) -> None:
+        """End all hosts at once, and what is not done."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        for hosts in self._places:
+            hosts.end_all()
+        self._pool.shutdown()
+        for hosts in self._places:
+            with suppress(OSError):
+                hosts.close()
+
+    def _run(self, run: m.Run) -> Answer:
+        with self._lock:
+            place = self._free.pop()
+        try:
+            (answer,) = self._places[place].run([run])
+        finally:
+            with self._lock:
+                self._free.append(place)
+        own = (
+            answer.host * self.number + place
+        )  # the hosts of all places, and those of the pipeline, have different numbers
+        return msgspec.structs.replace(answer, host=-own)
