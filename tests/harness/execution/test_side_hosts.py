@@ -1,0 +1,170 @@
+"""Scenarios that wait do so side by side on further hosts; answers, incidents and reports are those of one host."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import psutil
+import pytest
+from files import SUPPORT
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration, Scenario
+from ucm_cts.harness.certificates.rejudging import without_clock
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.hosting.host_watch import Limits
+from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.results.values import FrameworkReport
+from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.harness.statement.files import stated_by
+
+pytestmark = pytest.mark.slow
+
+JOBS = 4
+LIMITS = Limits(seconds=2)
+CALM = Scenario({"calm": Declaration()}, (s.AddComponent("calm"), s.Start()))
+WAITS = Scenario({"calm": Declaration()}, (s.AddComponent("calm"), s.Pause(300), s.Start()))
+PROVOKING = Declaration(("one", "two", "three"))
+TRIGGER = Scenario({"trigger": PROVOKING}, (s.AddComponent("trigger"), s.Pause(10)))
+PICKY = """
+import misbehaving
+
+def picky(base):
+    class Picky(base):
+        def create_runtime(self, implementations):
+            self.wanted = [one.name for one in implementations if len(one.provides) == 3]
+            return super().create_runtime(implementations)
+
+        def add_component(self, container, implementation, attributes):
+            return super().add_component(container, "trigger" if implementation in self.wanted else implementation, attributes)
+
+    return Picky
+
+Crashes = picky(misbehaving.ReadsNullPointer)
+IsKilled = picky(misbehaving.IsKilled)
+Hangs = picky(misbehaving.Hangs)
+"""
+"""Frameworks that misbehave when a component provides three port elements, whatever its name."""
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_with_picky_frameworks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "picky.py").write_text(PICKY)
+    (tmp_path / "misbehaving.py").write_text((SUPPORT / "hostile" / "misbehaving.py").read_text())
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture(autouse=True)
+def no_leaks() -> Iterator[None]:
+    before = {child.pid for child in psutil.Process().children(recursive=True)}
+    descriptors = set(os.listdir("/proc/self/fd"))
+    yield
+    assert {child.pid for child in psutil.Process().children(recursive=True)} <= before
+    assert set(os.listdir("/proc/self/fd")) <= descriptors
+
+
+def answers(adapter: str, cases: list[tuple[str, Scenario]], jobs: int = JOBS) -> list[Answer]:
+    with Driver(locate(adapter), 1, LIMITS, jobs) as driver:
+        return list(driver.run(cases))
+
+
+def cases(*scenarios: Scenario) -> list[tuple[str, Scenario]]:
+    return [(str(number), scenario) for number, scenario in enumerate(scenarios)]
+
+
+def overlap(one: Answer, other: Answer) -> bool:
+    return one.trace[0].t < other.trace[-1].t and other.trace[0].t < one.trace[-1].t
+
+
+def test_waits_overlap_and_answers_are_in_order() -> None:
+    asked = cases(*[CALM, WAITS, WAITS] * 5)
+    got = answers("reference-py", asked)
+    assert [(answer.name, answer.scenario) for answer in got] == asked
+    assert all(answer.incident is None and answer.trace for answer in got)
+    assert any(overlap(*two) for two in itertools.combinations(got[1::3], 2))
+    alone = answers("reference-py", asked, jobs=1)
+    assert not any(overlap(*two) for two in itertools.combinations(alone, 2))
+    assert [len(answer.trace) for answer in got] == [len(answer.trace) for answer in alone]
+
+
+def test_endless_cases_are_drawn_a_few_at_a_time() -> None:
+    drawn: list[int] = []
+
+    def endless() -> Iterator[tuple[str, Scenario]]:
+        for number in itertools.count():
+            drawn.append(number)
+            yield str(number), WAITS
+
+    with Driver(locate("reference-py"), 1, LIMITS, JOBS) as driver:
+        taken = [answer.name for answer in itertools.islice(driver.run(endless()), 3)]
+    assert taken == ["0", "1", "2"]
+    assert len(drawn) < 100
+
+
+@pytest.mark.parametrize(
+    ("adapter", "kind"),
+    [("picky:Crashes", "crash"), ("picky:Hangs", "hang"), ("picky:IsKilled", "crash")],
+)
+@pytest.mark.parametrize("place", [0, 3, 9])
+def test_incident_is_that_of_its_scenario_alone(adapter: str, kind: str, place: int) -> None:
+    scenarios = [CALM, WAITS, WAITS, CALM, WAITS, WAITS, WAITS, CALM, WAITS]
+    scenarios.insert(place, TRIGGER)
+    got = answers(adapter, cases(*scenarios))
+    assert [answer.scenario for answer in got] == scenarios
+    assert [answer.incident.kind if answer.incident else "" for answer in got] == [
+        kind if one is TRIGGER else "" for one in scenarios
+    ]
+    incident = got[place].incident
+    assert incident is not None
+    assert incident.reproduced
+
+
+def test_threads_that_never_come_back_are_the_scenarios_own() -> None:
+    stuck = Scenario({"trigger": PROVOKING}, (s.AddComponent("trigger", thread="w"), s.Pause(10)), patience=200)
+    got = answers("picky:Hangs", cases(WAITS, stuck, WAITS, CALM, WAITS))
+    assert [answer.incident.kind if answer.incident else "" for answer in got] == ["", "hang", "", "", ""]
+    assert [answer.stuck for answer in got] == [(), ("w",), (), (), ()]
+
+
+def report(adapter: str, jobs: int) -> FrameworkReport:
+    """Of the scenarios of 10.1.3, most of which wait, and those of 11.2.3."""
+    statement = stated_by(None, "reference-py")
+    chosen = [p for p in purposes_for(statement, "core") if p.clause.startswith("10.1.3") and not p.of_dimensions][:12]
+    chosen += [p for p in purposes_for(statement, "core") if p.clause.startswith("11.2.3")][:40]
+    with Driver(locate(adapter), 1, Limits(seconds=3), jobs) as driver:
+        campaign = Campaign(driver, "core", (), statement)
+        for _ in campaign.check(chosen):
+            pass
+        return without_clock(campaign.report())
+
+
+@pytest.mark.parametrize("adapter", ["reference-py", "ucm_cts.adapters.mutants.python:leaves_passive_components_open"])
+def test_report_is_that_of_one_host(adapter: str) -> None:
+    several, one = report(adapter, JOBS), report(adapter, 1)
+    assert [(r.id, r.verdict, r.exercised) for r in several.requirements] == [
+        (r.id, r.verdict, r.exercised) for r in one.requirements
+    ]
+    assert (several.verdict, several.incidents) == (one.verdict, one.incidents)
+
+
+def test_hosts_may_not_differ(tmp_path: Path) -> None:
+    """The second host says another version: it is not taken, and the run goes on with the first."""
+    (tmp_path / "changing.py").write_text(
+        "import os\n"
+        "from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter\n"
+        "class Changing(ReferenceAdapter):\n"
+        "    version = str(os.getpid())\n"
+    )
+    got = answers("changing:Changing", cases(CALM, WAITS, CALM, WAITS))
+    assert [answer.incident for answer in got] == [None] * 4
+
+
+def test_stressed_scenarios_stay_with_the_pipeline() -> None:
+    stress = msgspec.structs.replace(WAITS, steps=(*WAITS.steps, s.Stress((), 10)))
+    got = answers("reference-py", cases(*[stress] * 6))
+    assert not any(overlap(*two) for two in itertools.combinations(got, 2))
