@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import math
-import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -145,7 +144,8 @@ virtual_time_option = click.option(
 jobs_option = click.option(
     "--jobs",
     type=click.IntRange(min=1),
-    show_default="two for each processor; 1 in profile container",
+    default=1,
+    show_default=True,
     help="How many hosts there may be at once: scenarios that wait do so side by side.",
 )
 no_sandbox_option = click.option(
@@ -205,11 +205,6 @@ known_failures_option = click.option(
 everything_option = click.option(
     "--all", "everything", is_flag=True, help="List every failure, cause and undecided requirement."
 )
-
-
-def usual_jobs(profile: str) -> int:
-    """How many hosts a run has at once if the user does not say: few scenarios of profile container wait."""
-    return 1 if profile == "container" else 2 * (os.cpu_count() or 1)
 
 
 OF_FRAMEWORKS = (

@@ -45,7 +45,7 @@ MOST_UNTRIED = 32
 """How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
 
 MOST_AHEAD = 8
-"""For each side host, how many scenarios in a row are given to them before their answers are awaited."""
+"""How many scenarios each side host is given before answers are awaited."""
 
 _BETWEEN_COUNTS = 0.02
 
@@ -115,6 +115,8 @@ class Driver(Disguising):
     def warnings(self) -> tuple[str, ...]:
         """What the vendor should know of the adapter, a sentence each."""
         left = self._hosts.left_behind + self._left_behind
+        if self._side is not None:
+            left += self._side.left_behind
         others = tuple(namesakes(self._endpoint, self.adapter_file))
         shadowed = f"the adapter is {self.adapter_file}; another of its name is {', '.join(others)}"
         behind = f"hosts left {left.total()} processes behind, which were ended: {', '.join(sorted(left)[:_SHOWN])}"
@@ -146,8 +148,8 @@ class Driver(Disguising):
 
         def runs() -> Iterator[Run]:
             nonlocal more
-            left_out = ahead = 0
-            while left_out < MOST_UNTRIED and ahead <= MOST_AHEAD * self._side_hosts:
+            left_out = 0
+            while left_out < MOST_UNTRIED and _number_ahead(waiting) < max(MOST_AHEAD * self._side_hosts, 1):
                 case = returned.popleft() if returned else self._next(source)
                 if case is None:
                     more = False
@@ -158,7 +160,6 @@ class Driver(Disguising):
                 reply = case.ahead or (self._ahead(case.run) if untried is None else None)
                 waiting.append(replace(case, untried=untried, ahead=reply))
                 left_out = left_out + 1 if untried is not None else 0
-                ahead = ahead + 1 if reply is not None else 0
                 if untried is None and reply is None:
                     yield case.run
 
@@ -170,38 +171,48 @@ class Driver(Disguising):
                     yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
                     continue
                 answer = self._answered_ahead(case, insist)
-                if answer is None:  # from here on there is one host again
-                    waiting.appendleft(case)
+                if answer is None or answer.incident is not None:  # from here on there is one host again
                     self._end_side_hosts()
+                if answer is None:
+                    waiting.appendleft(case)
                     return
                 self._note(answer)
                 yield answer
 
-        while more or returned:
-            lost = False
-            with closing(self._hosts.run(runs())) as replies:
-                began = time.monotonic()
-                for reply in replies:
-                    yield from elsewhere()
-                    if waiting and waiting[0].ahead is not None:
-                        break
-                    case = waiting.popleft()
-                    answer = self._examine(case, reply, insist)
-                    self._note(answer)
-                    lost = isinstance(reply.reply, Incident) and reply.reply.kind in _HOST_IS_GONE
-                    if answer.incident is not None and (lost or answer.disguised is not case.run.scenario):
-                        took = time.monotonic() - began
-                        self._incident_time.spend(took, answer.disguised, answer.incident, answer.trace)
-                    yield answer
-                    if lost:
-                        break
+        try:
+            while more or returned:
+                lost = False
+                with closing(self._hosts.run(runs())) as replies:
                     began = time.monotonic()
-            yield from elsewhere()
-            if self._side is None:
-                returned.extendleft(replace(case, ahead=None) for case in reversed(waiting))
-            else:
-                returned.extendleft(reversed(waiting))  # these were sent to a host that has ended
-            waiting.clear()
+                    for reply in replies:
+                        took = time.monotonic() - began
+                        yield from elsewhere()
+                        if waiting and waiting[0].ahead is not None:
+                            break
+                        case = waiting.popleft()
+                        began = time.monotonic()
+                        answer = self._examine(case, reply, insist)
+                        self._note(answer)
+                        lost = isinstance(reply.reply, Incident) and reply.reply.kind in _HOST_IS_GONE
+                        if lost or answer.disguised is not case.run.scenario:
+                            self._spend(took + time.monotonic() - began, answer)
+                        yield answer
+                        if lost:
+                            break
+                        began = time.monotonic()
+                yield from elsewhere()
+                left = [case if self._side is not None else replace(case, ahead=None) for case in waiting]
+                returned.extendleft(reversed(left))  # these were sent to a host that has ended
+                waiting.clear()
+        finally:
+            for case in (*waiting, *returned):
+                if case.ahead is not None:
+                    case.ahead.cancel()
+
+    def _spend(self, seconds: float, answer: Answer) -> None:
+        """So much time has gone by for the incident of ``answer``, if it has one."""
+        if answer.incident is not None:
+            self._incident_time.spend(seconds, answer.disguised, answer.incident, answer.trace)
 
     def _note(self, answer: Answer) -> None:
         """What later runs depend on."""
@@ -222,16 +233,18 @@ class Driver(Disguising):
         return self._side.submit(run)
 
     def _answered_ahead(self, case: _Case, insist: bool) -> Answer | None:
-        """What a side host has answered; None if it was no trace that can be taken as it is."""
+        """What a side host has answered; None if something else than the product kept it from answering."""
         assert case.ahead is not None
         try:
             reply = case.ahead.result()
-        except Exception:  # noqa: BLE001 - whatever kept it from answering, the pipeline's own host is asked
+        except Exception:  # noqa: BLE001 - the pipeline's own host is asked
             return None
-        if not isinstance(reply.reply, Traced) or reply.reply.stuck:
+        if isinstance(reply.reply, Incident) and reply.reply.kind not in _HOST_IS_GONE:
             return None
+        began = time.monotonic()
         answer = self._examine(case, reply, insist)
-        return answer if answer.incident is None else None
+        self._spend((reply.received - reply.sent) / 1e9 + time.monotonic() - began, answer)
+        return answer
 
     def _end_side_hosts(self) -> None:
         if self._side is not None:
@@ -368,6 +381,10 @@ class Driver(Disguising):
         if first is None:
             return self._examine(case, second, insist=True)
         return replace(answer, incident=msgspec.structs.replace(first, reproduced=False))
+
+
+def _number_ahead(cases: Iterable[_Case]) -> int:
+    return sum(case.ahead is not None for case in cases)
 
 
 def _is_ordinary(answer: Answer) -> bool:

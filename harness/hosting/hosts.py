@@ -99,6 +99,7 @@ class Hosts:
         self._host: Host | None = None
         self._welcome = welcome
         self._opened = 0
+        self._is_over = False
         self.left_behind: Counter[str] = Counter()
         """The command lines of processes that hosts left behind, which were ended, and how many of each."""
 
@@ -250,7 +251,10 @@ class Hosts:
             self._opener = None
 
     def end_all(self) -> None:
-        """Kill the host and everything that was started for it. May be called while another thread waits for an answer."""
+        """Kill the host and everything that was started for it; there is no other host afterwards. Another thread may be waiting for an
+        answer, or start a host.
+        """
+        self._is_over = True
         if self._opener is not None:
             self._opener.end_all()
 
@@ -281,6 +285,9 @@ class Hosts:
             self._opener = _opener(self._endpoint, self.limits.memory)
         channel = self._opener.open(max(self.limits.seconds, _FORK_SECONDS))
         self.left_behind = self._opener.left_behind
+        if self._is_over:
+            channel.close(orderly=False)
+            raise HostUnavailable(Incident("unreachable", "no host is wanted any more"))
         return WatchedHost(channel, self.limits)
 
     def _greet(self, host: Host) -> m.Welcome:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import Counter
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import suppress
 
 import msgspec
@@ -28,6 +28,7 @@ class SideHosts:
         self._free = list(range(number))
         self._lock = threading.Lock()
         self._pool = ThreadPoolExecutor(number, "side host")
+        self._is_closed = False
 
     def submit(self, run: m.Run) -> Future[Answer]:
         """Run it as soon as a place is free. The future raises whatever keeps a host from answering."""
@@ -39,9 +40,12 @@ class SideHosts:
         return sum((hosts.left_behind for hosts in self._places), Counter())
 
     def close(self) -> None:
-        """End all hosts at once, and what is not done."""
+        """End all hosts, those at work at once. What is not done by then will not be done."""
+        self._is_closed = True
         self._pool.shutdown(wait=False, cancel_futures=True)
-        for hosts in self._places:
+        with self._lock:
+            busy = [hosts for place, hosts in enumerate(self._places) if place not in self._free]
+        for hosts in busy:
             hosts.end_all()
         self._pool.shutdown()
         for hosts in self._places:
@@ -50,12 +54,16 @@ class SideHosts:
 
     def _run(self, run: m.Run) -> Answer:
         with self._lock:
+            if self._is_closed:
+                raise CancelledError
             place = self._free.pop()
         try:
             (answer,) = self._places[place].run([run])
         finally:
             with self._lock:
                 self._free.append(place)
+        if self._is_closed:  # it may have been killed
+            raise CancelledError
         own = (
             answer.host * self.number + place
         )  # the hosts of all places, and those of the pipeline, have different numbers

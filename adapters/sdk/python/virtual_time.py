@@ -11,6 +11,7 @@ example for a socket, or in threads of an extension module, is not known here an
 from __future__ import annotations
 
 import _thread
+import functools
 import heapq
 import itertools
 import os
@@ -24,6 +25,11 @@ from typing import Any, cast
 READING = 10_000
 """Nanoseconds that one reading of a clock takes, so that a thread that waits by reading it comes to an end."""
 
+_ACQUIRING = 1_000
+"""Nanoseconds that it takes to get a lock that is free, or to find it held."""
+
+_FEW = 1_000
+
 _NANOSECONDS = 1_000_000_000
 _FOREVER = -1
 
@@ -31,57 +37,68 @@ _FOREVER = -1
 class _Waiter:
     """One wait of one thread. ``is_over``: the thread may go on; ``is_late``: because its time has come."""
 
-    __slots__ = ("is_late", "is_over", "wake")
+    __slots__ = ("is_late", "is_over", "process", "wake")
 
     def __init__(self) -> None:
         self.wake = _real_lock()
         self.wake.acquire()
         self.is_over = False
         self.is_late = False
+        self.process = TIME.process
 
 
 class VirtualTime:
-    """The time of one process. ``now``: nanoseconds of its monotonic clock."""
+    """The time of one process. ``now``: nanoseconds of its monotonic clock. ``process``: it is another one after a fork.
+
+    Hold ``mutex`` to change anything. A finalizer may come while the thread holds it, so it is recursive.
+    """
 
     def __init__(self) -> None:
         self.now = time.monotonic_ns()
-        self._mutex = _real_recursive_lock()  # a finalizer may come here while it is held
+        self.process = 0
+        self.mutex = _real_recursive_lock()
         self._running = 1
         self._waking = 0
         self._order = itertools.count()
         self._moments: list[tuple[int, int, _Waiter]] = []
+        self._pushed = 0
 
     def read(self) -> int:
         """The time now, in nanoseconds. Threads whose time has come go on; none passes until they do."""
-        with self._mutex:
-            if self._waking:
-                return self.now
-            self.now += READING
+        with self.mutex:
+            self.pass_by(READING)
+            return self.now
+
+    def pass_by(self, nanoseconds: int) -> None:
+        """So much time passes, unless a thread is about to go on. The caller holds the mutex."""
+        if not self._waking:
+            self.now += nanoseconds
             if self._moments and self._moments[0][0] <= self.now:
                 self._wake_first()
-            return self.now
 
     def sleep(self, seconds: float) -> None:
         """As ``time.sleep``."""
         if seconds < 0:
             raise ValueError("sleep length must be non-negative")
-        self._mutex.acquire()
-        self.park(_Waiter(), seconds)
+        waiter, nanoseconds = _Waiter(), max(_in_nanoseconds(seconds), READING)
+        with self.mutex:
+            self.park(waiter, nanoseconds)
 
-    def park(self, waiter: _Waiter, seconds: float | None) -> None:
-        """The calling thread waits, for so long at most. It holds the mutex, and releases it."""
-        if seconds is not None:
-            heapq.heappush(self._moments, (self.now + int(seconds * _NANOSECONDS), next(self._order), waiter))
+    def park(self, waiter: _Waiter, nanoseconds: int | None) -> None:
+        """The calling thread waits, for so long at most. It holds the mutex before and afterwards."""
+        if nanoseconds is not None:
+            heapq.heappush(self._moments, (self.now + nanoseconds, next(self._order), waiter))
+            self._forget_what_is_over()
         self._running -= 1
         self._go_on()
-        self._mutex.release()
+        held = self.mutex._release_save()  # type: ignore[attr-defined]
         waiter.wake.acquire()
-        with self._mutex:
-            self._waking -= 1
+        self.mutex._acquire_restore(held)  # type: ignore[attr-defined]
+        self._waking -= 1
 
     def wake(self, waiter: _Waiter) -> bool:
         """Let the thread go on that waits there; False if it has gone on already. The caller holds the mutex."""
-        if waiter.is_over:
+        if waiter.is_over or waiter.process != self.process:
             return False
         waiter.is_over = True
         self._running += 1
@@ -91,25 +108,34 @@ class VirtualTime:
 
     def begin_thread(self) -> None:
         """One more thread runs."""
-        with self._mutex:
+        with self.mutex:
             self._running += 1
 
     def end_thread(self) -> None:
         """The calling thread ends."""
-        with self._mutex:
+        with self.mutex:
             self._running -= 1
             self._go_on()
 
     def forget_threads(self) -> None:
         """In a forked process: only the calling thread is there."""
-        self._mutex = _real_recursive_lock()
+        self.process += 1
+        self.mutex = _real_recursive_lock()
         self._running = 1
         self._waking = 0
         self._moments = []
 
     def _go_on(self) -> None:
-        while self._running == 0 and self._moments:
+        while self._running <= 0 and self._moments:  # less than none: a thread that has ended still finalizes
             self._wake_first()
+
+    def _forget_what_is_over(self) -> None:
+        """Drop waits that ended before their time, when most are such."""
+        self._pushed += 1
+        if self._pushed > max(_FEW, len(self._moments) // 2):
+            self._pushed = 0
+            self._moments = [one for one in self._moments if not one[2].is_over]
+            heapq.heapify(self._moments)
 
     def _wake_first(self) -> None:
         moment, _, waiter = heapq.heappop(self._moments)
@@ -132,18 +158,22 @@ class _Lock:
             raise ValueError("can't specify a timeout for a non-blocking call")
         if timeout < 0 and timeout != _FOREVER:
             raise ValueError("timeout value must be a non-negative number")
-        TIME._mutex.acquire()
-        if not self._is_held or not blocking or timeout == 0:
-            is_free, self._is_held = not self._is_held, True
-            TIME._mutex.release()
-            return is_free
-        waiter = _Waiter()
-        self._waiters.append(waiter)
-        TIME.park(waiter, None if timeout == _FOREVER else timeout)
-        return not waiter.is_late
+        nanoseconds = None if timeout == _FOREVER else _in_nanoseconds(timeout)
+        waiter = _Waiter() if self._is_held and blocking and nanoseconds != 0 else None  # this may start finalizers
+        while True:
+            with TIME.mutex:
+                if not self._is_held or not blocking or nanoseconds == 0:
+                    is_free, self._is_held = not self._is_held, True
+                    TIME.pass_by(_ACQUIRING)
+                    return is_free
+                if waiter is not None:
+                    self._waiters.append(waiter)
+                    TIME.park(waiter, nanoseconds)
+                    return not waiter.is_late
+            waiter = _Waiter()
 
     def release(self) -> None:
-        with TIME._mutex:
+        with TIME.mutex:
             if not self._is_held:
                 raise RuntimeError("release unlocked lock")
             while self._waiters:
@@ -165,6 +195,13 @@ class _Lock:
         self._waiters.clear()
 
 
+def _in_nanoseconds(seconds: float) -> int:
+    """Raises ``OverflowError`` and ``ValueError`` for what is no time."""
+    if seconds > threading.TIMEOUT_MAX:
+        raise OverflowError("timestamp too large to convert to C _PyTime_t")
+    return int(seconds * _NANOSECONDS)
+
+
 _real_lock = _thread.allocate_lock
 _real_recursive_lock = _thread.RLock
 _real_join = threading.Thread.join
@@ -180,8 +217,9 @@ def _counted(start: Callable[..., Any]) -> Callable[..., Any]:
         end = _Lock()
         end.acquire()
         owner = getattr(function, "__self__", None)
-        if isinstance(owner, threading.Thread):
-            setattr(owner, _ends, end)
+        is_its_own = isinstance(owner, threading.Thread) and function == owner._bootstrap  # type: ignore[attr-defined]
+        if is_its_own:
+            setattr(owner, _ends, (TIME.process, end))
 
         def run(*given: Any, **more: Any) -> None:
             try:
@@ -195,14 +233,16 @@ def _counted(start: Callable[..., Any]) -> Callable[..., Any]:
             return start(run, *others, **named)
         except BaseException:
             TIME.end_thread()
+            if is_its_own:
+                delattr(owner, _ends)
             raise
 
     return start_thread
 
 
 def _join(thread: threading.Thread, timeout: float | None = None) -> None:
-    end = cast(_Lock | None, getattr(thread, _ends, None))
-    if end is not None and thread is not threading.current_thread():
+    process, end = cast(tuple[int, _Lock | None], getattr(thread, _ends, (0, None)))
+    if end is not None and process == TIME.process and thread is not threading.current_thread():
         if not end.acquire(timeout=_FOREVER if timeout is None else max(timeout, 0)):
             return
         end.release()
@@ -234,12 +274,18 @@ def install() -> None:
         if hasattr(_thread, name)
     }
     _replace(time, {**clocks, **calendar, "sleep": TIME.sleep})
-    _replace(_thread, {"allocate_lock": _Lock, **starts})
+    _replace(_thread, {"allocate_lock": _Lock, "allocate": _Lock, "RLock": threading._PyRLock, **starts})  # type: ignore[attr-defined]
+    _replace(_thread, {"start_new": starts["start_new_thread"]})
+    _replace(functools, {"RLock": threading._PyRLock})  # type: ignore[attr-defined]
     _replace(threading, {"Lock": _Lock, "_allocate_lock": _Lock, "_CRLock": None, "_time": seconds})
     _replace(threading, {f"_{name}": start for name, start in starts.items()})
     _replace(threading.Thread, {"join": _join})
     _replace(queue, {"SimpleQueue": queue._PySimpleQueue, "time": seconds})  # type: ignore[attr-defined]
-    os.register_at_fork(after_in_child=TIME.forget_threads)
+    os.register_at_fork(
+        before=lambda: TIME.mutex.acquire(),
+        after_in_parent=lambda: TIME.mutex.release(),
+        after_in_child=TIME.forget_threads,
+    )
 
 
 if __name__ == "__main__":

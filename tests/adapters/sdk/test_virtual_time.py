@@ -161,6 +161,110 @@ def test_patience_runs_out_at_once() -> None:
             """,
             "7",
         ),
+        *(
+            (
+                f"""
+                flag = []
+                lock, event, other = threading.Lock(), threading.Event(), threading.Lock()
+                other.acquire()
+                threading.Thread(target=lambda: (time.sleep(0.02), flag.append(1))).start()
+                while not flag:
+                    {polling}
+                print("done")
+                """,
+                "done",
+            )
+            for polling in ("time.sleep(0)", "event.wait(0)", "other.acquire(False)", "lock.acquire(); lock.release()")
+        ),
+        (
+            """
+            lock = threading.Lock()
+            lock.acquire()
+            thread = threading.Thread(target=lock.acquire, daemon=True)
+            thread.start()
+            time.sleep(1)
+            child = os.fork()
+            if child == 0:
+                thread.join()
+                lock.release()
+                os._exit(int(lock.acquire(timeout=2)))
+            print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+            """,
+            "1",
+        ),
+        (
+            """
+            import functools
+            class Slow:
+                @functools.cached_property
+                def value(self):
+                    time.sleep(2)
+                    return 7
+            slow = Slow()
+            with concurrent.futures.ThreadPoolExecutor(2) as pool:
+                print(list(pool.map(lambda _: slow.value, range(2))), passed())
+            """,
+            "[7, 7] 2.0",
+        ),
+        (
+            """
+            import _thread
+            class Helped(threading.Thread):
+                def run(self):
+                    _thread.start_new_thread(time.sleep, (100,))
+                    time.sleep(1)
+            helped = Helped()
+            helped.start()
+            helped.join()
+            print(passed())
+            """,
+            "1.0",
+        ),
+        (
+            """
+            lock = threading.Lock()
+            lock.acquire()
+            class Releases:
+                def __del__(self):
+                    lock.release()
+            class Cycle: pass
+            import gc
+            for _ in range(3):
+                one = Cycle()
+                one.one, one.two = one, Releases()
+                del one
+                gc.set_threshold(1)
+                if not lock.acquire(timeout=5):
+                    print("lost")
+                gc.set_threshold(700)
+            print("done")
+            """,
+            "done",
+        ),
+        (
+            """
+            lock = threading.Lock()
+            lock.acquire()
+            for time_out in (float("inf"), float("nan")):
+                try: lock.acquire(timeout=time_out)
+                except (OverflowError, ValueError): print("refused")
+            lock.release()
+            print(lock.acquire(timeout=1))
+            """,
+            "refused\nrefused\nTrue",
+        ),
+        (
+            """
+            waiting = queue.Queue()
+            for _ in range(5000):
+                waiting.put(1)
+                threading.Event().wait(0.001)
+                waiting.get(timeout=3600)
+            from ucm_cts.adapters.sdk.python.virtual_time import TIME
+            print(len(TIME._moments) < 3000)
+            """,
+            "True",
+        ),
         ("print(time.monotonic_ns() < time.monotonic_ns() <= time.monotonic_ns() + READING)", "True"),
         (
             """
