@@ -18,8 +18,7 @@ from ucm_cts.harness.hosting.locate import Endpoint
 class SideHosts:
     """``number`` places, each with a host of its own, which are started when they are needed. Close it: nothing stays behind.
 
-    ``welcome``: what every host must say of the product. A host has no time in common with others but that of the machine, so
-    its scenarios are those that need little of it.
+    ``welcome``: what every host must say of the product. The hosts share the processors, so scenarios that compute do not belong here.
     """
 
     def __init__(self, endpoint: Endpoint, limits: Limits, number: int, welcome: m.Welcome) -> None:
@@ -64,7 +63,5 @@ class SideHosts:
                 self._free.append(place)
         if self._is_closed:  # it may have been killed
             raise CancelledError
-        own = (
-            answer.host * self.number + place
-        )  # the hosts of all places, and those of the pipeline, have different numbers
-        return msgspec.structs.replace(answer, host=-own)
+        # no two hosts of all places, nor of the pipeline, have the same number
+        return msgspec.structs.replace(answer, host=-(answer.host * self.number + place))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import difflib
 import itertools
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,7 @@ import msgspec
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event, Return, Trace
+from ucm_cts.harness.execution.confirmation import is_timed
 from ucm_cts.reference_models.findings import Finding
 
 IDS = range(-(2**31), 2**31)
@@ -30,15 +32,22 @@ _MAY_DIFFER = ("n", "t", "thread", "detail")
 @dataclass(frozen=True)
 class Divergence:
     """``events`` are the ``n`` of the mutant's events that the other trace has not, or not there; ``steps`` are the steps of
-    the scenario during which something is there, or is missing.
+    the scenario during which something is there, or is missing. ``moved`` are those that come earlier or later, in virtual time.
+    ``is_of_order``: both traces have the same events, perhaps in another order.
     """
 
     events: frozenset[int]
     steps: frozenset[int]
     step_of: tuple[int, ...]
+    moved: frozenset[int]
+    is_of_order: bool
 
     def explains(self, finding: Finding) -> bool:
-        """Does ``finding`` name one of these events, or the step in which one is missing?"""
+        """Does ``finding`` name one of these events, or the step in which one is missing? An event that was only moved explains
+        a finding that depends on time.
+        """
+        if is_timed(finding) and self.moved & set(finding.events):
+            return True
         steps = {self.step_of[n - 1] for n in finding.events if 0 < n <= len(self.step_of)}
         if finding.step is not None:
             steps.add(finding.step)
@@ -46,22 +55,25 @@ class Divergence:
 
 
 def divergence(scenario: Scenario, right: Trace, wrong: Trace, virtual_time: bool = False) -> Divergence:
-    """Where ``wrong`` parts from ``right``; both are in the scenario's own names. In ``virtual_time`` an event that comes earlier
-    or later differs, too.
+    """Where ``wrong`` parts from ``right``; both are in the scenario's own names. In ``virtual_time`` their times
+    are compared, too.
     """
     step_of = _steps(wrong)
     events: set[int] = set()
     steps: set[int] = set()
-    compared = difflib.SequenceMatcher(None, _comparable(scenario, right), _comparable(scenario, wrong), autojunk=False)
+    moved: set[int] = set()
+    originals, mutated = _comparable(scenario, right), _comparable(scenario, wrong)
+    compared = difflib.SequenceMatcher(None, originals, mutated, autojunk=False)
     for kind, same, _, begin, end in compared.get_opcodes():
         if kind == "equal":
             if virtual_time:
-                events.update(_at_other_times(right[same:], wrong[begin:end]))
+                moved.update(_at_other_times(right[same:], wrong[begin:end]))
             continue
         events.update(event.n for event in wrong[begin:end])
         around = range(max(begin - 1, 0), min(end + 1, len(wrong)))
         steps.update(step_of[place] for place in around)
-    return Divergence(frozenset(events), frozenset(steps), step_of)
+    is_of_order = Counter(originals) == Counter(mutated)
+    return Divergence(frozenset(events), frozenset(steps), step_of, frozenset(moved), is_of_order)
 
 
 def _at_other_times(right: Trace, wrong: Trace) -> Iterator[int]:

@@ -19,6 +19,7 @@ from ucm_cts.adapters.mutants.cpp import COMMAND, NativeMutant, being, native_mu
 from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, VARIANTS, Mutant
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.confirmation import is_timed
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.hosting.hosts import HostUnavailable
@@ -272,11 +273,12 @@ def _names_the_place(subject: Subject, ran: _Trial, finding: Finding, execution:
     if execution.incident is not None or finding.rule in HOST_CHECKS:
         return True
     right = _right_traces(subject.model, ran.seed, ran.virtual_time).of(execution.scenario)
-    if divergence(execution.scenario, right, execution.trace, ran.virtual_time).explains(finding):
+    parted = divergence(execution.scenario, right, execution.trace, ran.virtual_time)
+    if parted.explains(finding):
         return True
-    if not subject.readings:
+    if not subject.readings or not (parted.is_of_order or is_timed(finding)):
         return False
-    # perhaps it lies in its statement: then under its model's the finding vanishes
+    # it lies in its statement: under its model's the finding must vanish
     usual = Monitor(load_life_cycle(), stated_by(None, subject.reference).ics)
     found = usual.judge(execution.scenario, execution.trace).findings
     return all(other.requirement != finding.requirement for other in found)

@@ -29,13 +29,14 @@ _ACQUIRING = 1_000
 """Nanoseconds that it takes to get a lock that is free, or to find it held."""
 
 _FEW = 1_000
+"""So many waits are kept before those that are over are looked for."""
 
 _NANOSECONDS = 1_000_000_000
 _FOREVER = -1
 
 
 class _Waiter:
-    """One wait of one thread. ``is_over``: the thread may go on; ``is_late``: because its time has come."""
+    """One wait of one thread. ``is_over``: the thread may go on; ``is_late``: because its time has come. ``process``: where it waits."""
 
     __slots__ = ("is_late", "is_over", "process", "wake")
 

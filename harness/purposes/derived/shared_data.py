@@ -362,9 +362,8 @@ def _faults() -> TestPurpose:
         scenarios.append((f"{where} broken{'' if place == s.MANAGER else ', one reader elsewhere'}", made.end()))
     made = _with(1, 2, patience=_BRIEF).start().update().read()
     for _ in range(2):
-        made.write().break_("transport").publish().mend().write().publish().listen(
-            0
-        ).wait_in_vain().read().update().read()
+        made.write().break_("transport").publish().mend().write().publish().listen(0)
+        made.wait_in_vain().read().update().read()
     scenarios.append(("transport broken twice", made.end()))
     return _purpose("faults", "The connection is broken, and mended.", "1-23", scenarios)
 

@@ -200,7 +200,7 @@ class Configuration(ConnectionSteps):
         return self
 
     def wait_in_vain(self) -> Configuration:
-        """Wait until patience has run out: who needs longer than a vendor declares is late."""
+        """Wait until patience has run out. A reader that has not got what it is owed by then never gets it."""
         self.steps.append(s.ReachGate(_NOWHERE))
         return self
 
