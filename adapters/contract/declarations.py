@@ -10,6 +10,8 @@ from typing import Annotated, Final, Literal
 from ucm_cts.adapters.contract import platform_interfaces as platform
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.execution_policies import *  # their names are names of this module, too
+from ucm_cts.adapters.contract.timers import *
+from ucm_cts.adapters.contract.timers import INDEX_TIMERS, TIMER_METHODS, TIMER_SERVICE
 from ucm_cts.adapters.contract.traits import Names
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
@@ -72,6 +74,20 @@ class Remembered(Value, frozen=True):
     nth: Int32 = 0
 
 
+class FromClock(Value, frozen=True):
+    """A time-out of 10.3.2 whose seconds count from what a clock of the body shows. The body reads the clock just before its call,
+    and adds the seconds that the clock gave to those of the time-out.
+
+    ``argument``: the time-out among the arguments, from 0.
+    ``port``: the port element of the clock.
+    ``method``: the method of the clock.
+    """
+
+    argument: Int32
+    port: PortElementName
+    method: MethodName
+
+
 class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     """The probe calls a method on every reference that it holds for a required port element.
 
@@ -80,6 +96,7 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     ``arguments``: values of the IN and INOUT parameters, in order.
     ``remembered``: what takes the place of some of them. The probe does not call while it has not been given one of these.
     ``given``: it calls only if the body was entered at ``exchange`` with this value.
+    ``from_clock``: the argument that is a date. The probe does not call if the clock gives no time.
     """
 
     port: PortElementName
@@ -87,6 +104,7 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     arguments: tuple[Datum, ...] = ()
     remembered: tuple[Remembered, ...] = ()
     given: Annotated[Int32 | None, Names("payload")] = None
+    from_clock: FromClock | None = None
 
 
 class Answer(Value, frozen=True, tag_field="do", tag="answer"):
@@ -145,7 +163,7 @@ COMPONENT_TRACE = "component_trace"
 PORT_TRACE = "port_trace"
 """The policies of the container services (10.1.4)."""
 
-REQUIRED_ELEMENTS = {CLOCK: "clock_api", COMPONENT_TRACE: "trace_api"}
+REQUIRED_ELEMENTS = {CLOCK: "clock_api", COMPONENT_TRACE: "trace_api", INDEX_TIMERS: TIMER_SERVICE}
 """The port element that a component requires by such a policy."""
 
 SERVICE_CONNECTOR: Final = "simple_service_connector"
@@ -153,8 +171,10 @@ MESSAGE_CONNECTOR: Final = "simple_message_connector"
 """The connectors of 10.1.5 and 10.1.6."""
 
 PUSH = "push"
-STANDARD_METHODS = frozenset((PUSH, "get_local_time", "get_synchronized_time", "log", *platform.METHODS))
-"""The methods of the platform's interfaces: of messages, the clock, the trace and the connectors of 10.4."""
+STANDARD_METHODS = frozenset(
+    (PUSH, "get_local_time", "get_synchronized_time", "log", *platform.METHODS, *TIMER_METHODS)
+)
+"""The methods of the platform's interfaces: of messages, the clock, the trace, timers and the connectors of 10.4."""
 
 STANDARD_ELEMENTS = platform.ELEMENTS
 """Port elements whose names are those of the text."""

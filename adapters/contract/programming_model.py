@@ -102,6 +102,10 @@ class ComponentObject(ABC):
         """The body's own object for the port element that its technical policy makes it provide, or None (12.8.5)."""
         return None
 
+    def get_policy_port(self, policy: str, element: str) -> PortElementObject | None:
+        """The same, for a port element with an interface, as timer_callback of the index timers (10.3.2)."""
+        return None
+
     @abstractmethod
     def set_attribute(self, name: str, value: str) -> None:
         """Set a component attribute. Clause 13.5 spells one mutator an attribute; generic bodies have this one."""

@@ -29,6 +29,8 @@ from ucm_cts.harness.purposes.provocations.dimensions import (
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.statement.applicability import needs_of
+from ucm_cts.reference_models.model.service_policies import has_timers
 from ucm_cts.reference_models.properties.clause_11_2_2 import DECLARED
 
 CELLS = ("provocation/", "refusal/")
@@ -125,6 +127,8 @@ def _uses(scenario: Scenario, name: str) -> bool:
         or any(name in (s.operation(step), getattr(step, "connector", ""), step.claim) for step in scenario.steps)
         or any(name in declaration.plan for declaration in scenario.components.values())
         or any(name == policy.definition for one in scenario.components.values() for policy in one.policies)
+        or name in needs_of(scenario)
+        or (name == s.ON_TIMEOUT and any(has_timers(one) for one in scenario.components.values()))
     )
 
 

@@ -54,15 +54,17 @@ class Body:
 
 class Frame:
     """An activity on a thread: an operation, a call that a body makes, or a call of ``body``. ``acts`` are the actions of that
-    body so far, and ``began`` is the place in its ``held`` at the beginning.
+    body so far, ``replies`` what came back, by request, if what it calls depends on that, and ``began`` is the place in its ``held`` at the
+    beginning.
     """
 
-    __slots__ = ("acts", "began", "body", "event")
+    __slots__ = ("acts", "began", "body", "event", "replies")
 
     def __init__(self, event: t.Call | t.Enter | t.Request, body: Body | None = None) -> None:
         self.event = event
         self.body = body
         self.acts: list[Act] = []
+        self.replies: dict[int, t.Reply] = {}
         self.began = len(body.held) - 1 if body is not None else 0
 
 
@@ -148,6 +150,9 @@ class BodyChecks:
             exists = self.exists(event.component, event.instance)
             return "a reply without its request" if exists else self.why_outside(event)
         thread.frames.pop()
+        within = thread.frames[-1] if thread.frames else None
+        if within is not None and within.body is not None and within.body.depends_on_entries:
+            within.replies[asked.n] = event  # type: ignore[union-attr]
         return None
 
     def check_act(self, event: t.Pushed | t.Siblings | t.Held, thread: Thread) -> str | None:
@@ -183,7 +188,7 @@ class BodyChecks:
             if (event.results, event.exception) != due:
                 return f"{enter.method} gave {event.results!r}, its plan says {due[0]!r}"
         if body.depends_on_entries:
-            actions = as_entered(actions, acts, enter, body.entries)
+            actions = as_entered(actions, acts, enter, body.entries, frame.replies)
         # most bodies have nothing to do
         if (actions or acts) and not is_as_planned(actions, acts, body.held_since(frame.began)):
             return f"{event.component} did not act in {event.hook} as its plan says"
@@ -204,6 +209,11 @@ def _due_results(plan: Plan, enter: t.Enter) -> tuple[tuple[Datum, ...] | None, 
     return enter.arguments if own is None else own, answers[-1].exception
 
 
+def _has_timers(declaration: Declaration) -> bool:
+    """Does it provide the callback of the index timers?"""
+    return any(policy.definition == s.INDEX_TIMERS for policy in declaration.policies)
+
+
 def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
     """Why a body of this declaration cannot be entered so."""
     hook = event.hook
@@ -213,7 +223,8 @@ def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
         right = (event.value is not None or bool(event.wrong)) and event.port in declaration.provides
         return None if right else f"exchange on {event.port!r} with {event.value!r}"
     if hook == "method":
-        right = event.method is not None and event.arguments is not None and event.port in declaration.ports
+        known = event.port in declaration.ports or (event.port == s.TIMER_CALLBACK and _has_timers(declaration))
+        right = event.method is not None and event.arguments is not None and known
         return None if right else f"method {event.method!r} on {event.port!r}"
     if hook == "run" and not any(s.is_self_executing(policy.definition) for policy in declaration.policies):
         return "run of a component that does not execute by itself"

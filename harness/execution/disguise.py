@@ -175,7 +175,10 @@ class Disguise:
         named = self._named(action)
         if isinstance(named, s.CallMethod):
             remembered = tuple(map(self._named, named.remembered))
-            return msgspec.structs.replace(named, arguments=self._arguments(named), remembered=remembered)
+            clock = self._named(named.from_clock) if named.from_clock is not None else None
+            return msgspec.structs.replace(
+                named, arguments=self._arguments(named), remembered=remembered, from_clock=clock
+            )
         return named
 
     def _arguments(self, call: s.CallMethod) -> tuple[Datum, ...]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import msgspec
@@ -10,7 +11,7 @@ import msgspec
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Action, Declaration
-from ucm_cts.adapters.contract.trace import Enter, Held, Pushed, Request, Siblings
+from ucm_cts.adapters.contract.trace import Enter, Held, Pushed, Reply, Request, Siblings
 
 Act = Request | Pushed | Siblings | Held
 """Events that show an action of a plan."""
@@ -34,20 +35,29 @@ def plan_of(declaration: Declaration, hook: s.Hook) -> Plan:
 def depends_on_entries(declaration: Declaration) -> bool:
     """Does what the body calls depend on what it was entered with, or had been given before?"""
     calls = [a for plan in declaration.plan.values() for a in plan if isinstance(a, s.CallMethod)]
-    return any(call.remembered or call.given is not None for call in calls)
+    return any(call.remembered or call.given is not None or call.from_clock is not None for call in calls)
 
 
 def as_entered(
-    plan: Sequence[Action], acts: Sequence[Act], enter: Enter, entries: Sequence[Enter]
+    plan: Sequence[Action],
+    acts: Sequence[Act],
+    enter: Enter,
+    entries: Sequence[Enter],
+    replies: Mapping[int, Reply] = {},
 ) -> tuple[Action, ...]:
-    """The plan of a body that was entered by ``enter``, with the values that it had been given at its ``entries``.
+    """The plan of a body that was entered by ``enter``, with the values that it had been given at its ``entries``, and by the ``replies``
+    to requests of this plan, by request.
 
     A call is left out if the body was entered with another value, or had not been given one of the call's values; if it was given
     it meanwhile, the ``acts`` decide.
     """
     found: list[Action] = []
+    pairs = iter([*itertools.zip_longest(acts, acts[1:])])
     for action in plan:
         if isinstance(action, s.CallMethod) and action.given not in (None, enter.value):
+            continue
+        if isinstance(action, s.CallMethod) and action.from_clock is not None:
+            found += _dated(action, action.from_clock, pairs, replies)
             continue
         if not isinstance(action, s.CallMethod) or not action.remembered:
             found.append(action)
@@ -64,6 +74,33 @@ def as_entered(
         if not meanwhile or any(_is(act, call) for act in acts):
             found.append(call)
     return tuple(found)
+
+
+def _dated(
+    call: s.CallMethod,
+    of: s.FromClock,
+    acts: Iterator[tuple[Act, Act | None]],
+    replies: Mapping[int, Reply],
+) -> list[Action]:
+    """What the body did for ``call``, as far as the next ``acts`` (each with the one after it) show: it read the clock, and made the call
+    with the date that followed from that, if the clock gave a time.
+    """
+    reading = s.CallMethod(of.port, of.method)
+    for act, following in acts:
+        if not _is(act, reading):
+            continue
+        dated = _with_date(call, of, replies.get(act.n))
+        leads_on = not isinstance(following, Request) or (following.port, following.method) == (call.port, call.method)
+        if leads_on or not dated:
+            return [reading, *dated]
+    return []
+
+
+def _with_date(call: s.CallMethod, of: s.FromClock, reply: Reply | None) -> list[Action]:
+    """The call with the date that follows from what the clock gave; nothing if that was no time."""
+    results = reply.results or () if reply is not None and not reply.failed else ()
+    arguments = s.date_from(call.arguments, of.argument, results)
+    return [] if arguments is None else [msgspec.structs.replace(call, arguments=arguments, from_clock=None)]
 
 
 def _given(one: s.Remembered, enter: Enter, entries: Sequence[Enter]) -> Enter | None:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, requirements_of
 from ucm_cts.harness.purposes.data.scenarios import data_purposes
+from ucm_cts.harness.purposes.derived.index_timers import index_timer_purposes
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.derived.messages import message_purposes
@@ -48,6 +49,7 @@ _EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (
     policy_purposes,
     paced_run_purposes,
     paced_call_purposes,
+    index_timer_purposes,
 )
 """Where those of profile extensions come from."""
 

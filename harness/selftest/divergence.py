@@ -1,6 +1,6 @@
 """Compares the trace of a mutant with that of the original framework: a finding must name one of the differences.
 
-Both have run the same scenario. Ids in the permitted range and threads may differ, and in real time the times;
+Both have run the same scenario. Ids in the permitted range, threads and calendars may differ, and in real time the times;
 everything else is compared.
 """
 
@@ -26,7 +26,7 @@ IDS = range(-(2**31), 2**31)
 _MOMENT = 1_000_000
 """Nanoseconds by which the time between two events may differ in virtual time: clocks are not read equally often."""
 
-_MAY_DIFFER = ("n", "t", "thread", "detail")
+_MAY_DIFFER = ("n", "t", "thread", "detail", "calendar")
 
 
 @dataclass(frozen=True)

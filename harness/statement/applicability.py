@@ -20,6 +20,9 @@ from ucm_cts.reference_models.model.execution_policies import protection_of
 
 Cases = tuple[tuple[str, Scenario], ...]
 
+_PARTS_OF_POLICIES = {s.INDEX_TIMERS: "index-timers"}
+"""The parts that have another name than their policy."""
+
 
 def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
     """The test purposes of ``profile``, with the scenarios that need only claimed parts; systematic suites are
@@ -32,6 +35,7 @@ def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> t
 def needs_of(scenario: Scenario) -> frozenset[str]:
     """What a vendor must claim for ``scenario`` to be run: parts of 10.1, and test operations of the adapter."""
     applied = {p.definition for declaration in scenario.components.values() for p in declaration.policies}
+    applied = {_PARTS_OF_POLICIES.get(definition, definition) for definition in applied}
     return frozenset(applied & _parts() | {step.claim for step in scenario.steps if step.claim})
 
 
@@ -175,7 +179,8 @@ def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
     read back. Patience is not shortened where policies have times: the wait for what they bring lasts as long as they say.
     """
     patience = round(scenario.patience * statement.ixit["patience"] / default_statement().ixit["patience"])
-    if any(policy.settings for declaration in scenario.components.values() for policy in declaration.policies):
+    policies = [policy for declaration in scenario.components.values() for policy in declaration.policies]
+    if any(policy.settings or policy.definition == s.INDEX_TIMERS for policy in policies):
         patience = max(patience, scenario.patience)
     steps = scenario.steps
     if not statement.meets("trace-sink=hook"):

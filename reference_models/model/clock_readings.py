@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Paused, Return
+from ucm_cts.reference_models.model.clock_reading import ClockReading
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Container
 from ucm_cts.reference_models.model.service_policies import policy_elements
 
 LOCAL, SYNCHRONIZED = "get_local_time", "get_synchronized_time"
@@ -26,35 +25,6 @@ SECOND, MILLISECOND, MICROSECOND = 1_000_000_000, 1_000_000, 1_000
 _MOST = 200
 _WRAP = 2**32 * SECOND
 """Seconds are 32 bits without sign."""
-
-
-@dataclass(frozen=True, slots=True)
-class ClockReading:
-    """A body asked for the time and got it. All times are in nanoseconds.
-
-    ``begin``, ``end``: the events.
-    ``asked``, ``answered``: when, by the host's monotonic clock.
-    ``time``: what the body's clock gave.
-    ``advanced``: the virtual time that had passed by then.
-    """
-
-    call: MethodCall
-    begin: int
-    end: int
-    asked: int
-    answered: int
-    time: int
-    advanced: int
-
-    @property
-    def body(self) -> tuple[str, int]:
-        """The body that read the clock."""
-        return self.call.request.body
-
-    @property
-    def container(self) -> Container | None:
-        """Where the body is; None if that is not known."""
-        return self.call.caller.container if self.call.caller is not None else None
 
 
 def clock_call(runtime: ObservedRuntime, call: MethodCall) -> str:

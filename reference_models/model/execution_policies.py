@@ -18,12 +18,14 @@ _PROTECTIONS: dict[str, Protection] = {
 }
 _PROTECTIONS |= {extended: _PROTECTIONS[base] for extended, base in s.EXTENDED.items()}
 
-_KNOWN = {*_PROTECTIONS, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE}
+_KNOWN = {*_PROTECTIONS, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE, s.INDEX_TIMERS}
 
 _RUNS_APART = "R-10.1.3.2-05"
 _RUN_AND_PORTS, _MANAGED_PORTS, _WHOLE_COMPONENT = "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10"
 _PASSIVE, _EXECUTIONS_APART = "R-10.1.3.2-13", "R-10.1.3.2-16"
 _EXTENDED_SELF_EXECUTING, _EXTENDED_ACTIVE = "R-10.5.2-18", "R-10.5.2-19"
+TIMERS_EXCLUDED = "R-10.3.2-43"
+"""The requirement that keeps callbacks of timers apart from other executions."""
 
 CALL_EXCLUSIONS = (
     _RUN_AND_PORTS,
@@ -33,6 +35,7 @@ CALL_EXCLUSIONS = (
     _EXECUTIONS_APART,
     _EXTENDED_SELF_EXECUTING,
     _EXTENDED_ACTIVE,
+    TIMERS_EXCLUDED,
 )
 """The requirements that keep executions by calls apart."""
 
@@ -88,7 +91,15 @@ def managed_ports(declaration: Declaration) -> set[str]:
 
 
 def exclusion(declaration: Declaration, ics: Ics, one: str, other: str) -> str:
-    """The requirement that keeps two ways into a component apart; empty if none does, or if the vendor reads it so."""
+    """The requirement that keeps two ways into a component apart; empty if none does, or if the vendor reads it so. Callbacks of timers
+    have one of their own.
+    """
+    if s.TIMER_CALLBACK in (one, other) and s.TIMER_CALLBACK not in declaration.provides:
+        return TIMERS_EXCLUDED if _exclusion(declaration, ics, one, other) else ""
+    return _exclusion(declaration, ics, one, other)
+
+
+def _exclusion(declaration: Declaration, ics: Ics, one: str, other: str) -> str:
     protection = protection_of(declaration)
     if protection == "self-executing":
         extended = extended_policy(declaration) is not None

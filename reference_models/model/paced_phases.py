@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Enter, Exit, Return
+from ucm_cts.adapters.contract.trace import Exit
 from ucm_cts.reference_models.model.execution_policies import extended_policy, managed_ports
 from ucm_cts.reference_models.model.executions import BusinessCall, Execution, goals_of
 from ucm_cts.reference_models.model.method_calls import NEVER, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operational_phase import Phase
 from ucm_cts.reference_models.model.paced_events import MILLISECOND, Invocation, PacedExecution, PacedPhase
+from ucm_cts.reference_models.model.phases import phases_of
 from ucm_cts.reference_models.model.runtime import Member
 
 
@@ -44,38 +46,14 @@ def _phases(runtime: ObservedRuntime) -> Iterator[PacedPhase]:
         policy = extended_policy(member.declaration)
         if policy is None or member.suspended:
             continue
-        begun = [startup for startup in runtime.executions.startups[member.body] if startup[1] is not None]
-        for number, (enter, exit_) in enumerate(begun):
-            start = _start_around(runtime, enter)
-            if start is not None and exit_ is not None:
-                yield _phase(runtime, member, policy, number, start, enter, exit_, invocations)
+        for phase in phases_of(runtime, member):
+            yield _phase(runtime, phase, policy, invocations)
 
 
-def _start_around(runtime: ObservedRuntime, enter: Enter) -> Operation | None:
-    """The start that led to this on_startup and returned."""
-    for operation in runtime.interactions.operations:
-        end = operation.end
-        if isinstance(operation.step, s.Start) and isinstance(end, Return) and operation.begin.n < enter.n < end.n:
-            return operation
-    return None
-
-
-def _phase(
-    runtime: ObservedRuntime,
-    member: Member,
-    policy: s.Policy,
-    number: int,
-    start: Operation,
-    enter: Enter,
-    exit_: Exit,
-    invocations: list[Invocation],
-) -> PacedPhase:
-    assert start.end is not None
-    after = (o for o in runtime.interactions.changes if o.step.undoes == "phase" and o.begin.n > enter.n)
-    ending = next((o.begin for o in after if _may_end(runtime, member, o.step)), None)
-    until, ended_at = (ending.n, ending.t) if ending is not None else (NEVER, runtime.interactions.latest)
-    origins, closed = _origins(runtime, start, exit_, number), end_of_phase(runtime, member, enter)
-    phase = PacedPhase(member, policy, number, origins, enter.n, until, ended_at, closed)
+def _phase(runtime: ObservedRuntime, of: Phase, policy: s.Policy, invocations: list[Invocation]) -> PacedPhase:
+    member, enter, until, ended_at, closed = of.member, of.startup, of.until, of.ended_at, of.closed
+    origins = _origins(runtime, of.start, of.started, of.number)
+    phase = PacedPhase(member, policy, of.number, origins, enter.n, until, ended_at, closed)
     phase.invocations = [i for i in invocations if i.n < until and _is_for(runtime, i, member) and _lasts(i, enter.n)]
     by_execution = {id(e): i for i in phase.invocations for e in i.executions}
     managed = managed_ports(member.declaration)
@@ -90,30 +68,6 @@ def _phase(
         elif execution.enter.n < until:
             phase.others.append(execution)
     return phase
-
-
-def end_of_phase(runtime: ObservedRuntime, member: Member, startup: Enter) -> int:
-    """The event by which the operation returned that ended the phase; later than all if none did."""
-    for operation in runtime.interactions.changes:
-        step, end = operation.step, operation.end
-        if operation.begin.n < startup.n or not isinstance(end, Return):
-            continue
-        of_container = isinstance(step, s.Stop | s.RemoveContainer) and _is_in(runtime, member, step.container)
-        of_member = isinstance(step, s.RemoveComponent) and runtime.members.get(step.id) is member
-        if of_container or of_member or isinstance(step, s.Destroy):
-            return end.n
-    return NEVER
-
-
-def _may_end(runtime: ObservedRuntime, member: Member, step: s.Step) -> bool:
-    """May ``step`` end the phase of ``member``? Stopping the manager may reach all containers."""
-    if isinstance(step, s.Stop | s.RemoveContainer):
-        return step.container == s.MANAGER or _is_in(runtime, member, step.container)
-    return not isinstance(step, s.RemoveComponent) or runtime.members.get(step.id) in (None, member)
-
-
-def _is_in(runtime: ObservedRuntime, member: Member, container: str) -> bool:
-    return runtime.containers.get(container) is member.container
 
 
 def _origins(runtime: ObservedRuntime, start: Operation, startup: Exit, number: int) -> tuple[int, int]:

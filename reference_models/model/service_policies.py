@@ -11,6 +11,8 @@ from ucm_cts.reference_models.model.runtime import raises
 
 TRACES = (s.COMPONENT_TRACE, s.PORT_TRACE)
 SERVICES = (s.CLOCK, *TRACES)
+BESIDE_EXECUTION = (*SERVICES, s.INDEX_TIMERS)
+"""The policies of the platform that are no execution policies."""
 
 
 def policies_of(declaration: Declaration | None, *definitions: str) -> list[Policy]:
@@ -41,6 +43,11 @@ def port_traces(declaration: Declaration | None, port: str, method: str) -> list
 def methods_named(policy: Policy) -> set[str]:
     """The methods that methods_to_trace names, with any separators."""
     return set(re.findall(r"\w+", policy.parameters.get(s.METHODS_TO_TRACE, "")))
+
+
+def has_timers(declaration: Declaration | None) -> bool:
+    """Has the component index timers (10.3.2)?"""
+    return declaration is not None and any(p.definition == s.INDEX_TIMERS for p in declaration.policies)
 
 
 def only_service(declaration: Declaration, *definitions: str) -> bool:

@@ -15,7 +15,7 @@ from ucm_cts.reference_models.model.method_calls import NEVER, Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane, raises
-from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
+from ucm_cts.reference_models.model.service_policies import BESIDE_EXECUTION, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _REENTERED, _RUN_IS_CALLED, _RUN_PHASE = "R-10.1.3.2-20", "R-10.1.3.2-01", "R-10.1.3.2-02"
@@ -231,7 +231,7 @@ def _refused(check: Property, declaration: Declaration, end: Raise) -> Conclusio
     requirement = _support(declaration)
     active = sum(policy.definition == s.ACTIVE for policy in declaration.policies)
     excused = policies.is_contradictory(declaration) or active > 1  # may count as two policies
-    excused = excused or bool(policies_of(declaration, *SERVICES)) or policies.has_unknown_policy(declaration)
+    excused = excused or bool(policies_of(declaration, *BESIDE_EXECUTION)) or policies.has_unknown_policy(declaration)
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
         expected = f"a component with the policy {declaration.policies[0].definition} is added"
         yield check.refused("add_component", end, expected=expected, requirement=requirement)

@@ -10,6 +10,7 @@ from ucm_cts.adapters.contract.trace import Raise
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import clock_readings as clocks
+from ucm_cts.reference_models.model.clock_reading import ClockReading
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
@@ -191,7 +192,7 @@ def _is_never_set(runtime: ObservedRuntime) -> bool:
 
 def _pairs(
     runtime: ObservedRuntime, method: str, is_never_set: bool = False
-) -> Iterator[tuple[clocks.ClockReading, clocks.ClockReading, int]]:
+) -> Iterator[tuple[ClockReading, ClockReading, int]]:
     """Two readings, one after the other, and by how many nanoseconds the clock may have been set in between.
 
     Pairs for which that is open are left out.
@@ -205,7 +206,7 @@ def _pairs(
                 yield earlier, later, calendar[1]
 
 
-def _went_back(check: Property, earlier: clocks.ClockReading, later: clocks.ClockReading, tolerance: float) -> Finding:
+def _went_back(check: Property, earlier: ClockReading, later: ClockReading, tolerance: float) -> Finding:
     back = _milliseconds(-clocks.passed(earlier.time, later.time))
     return check.fail(
         "one component" if earlier.body == later.body else "two components",
@@ -216,19 +217,17 @@ def _went_back(check: Property, earlier: clocks.ClockReading, later: clocks.Cloc
     )
 
 
-def _paced(
-    check: Property, earlier: clocks.ClockReading, later: clocks.ClockReading, cause: str, expected: str
-) -> Finding:
+def _paced(check: Property, earlier: ClockReading, later: ClockReading, cause: str, expected: str) -> Finding:
     went = _milliseconds(clocks.passed(earlier.time, later.time))
     observed = f"'{_who(later)}' saw it go on by {went} ms"
     return check.fail(cause, expected=expected, observed=observed, at=(earlier.end, later.end))
 
 
-def _width(reading: clocks.ClockReading) -> int:
+def _width(reading: ClockReading) -> int:
     return reading.answered - reading.asked
 
 
-def _who(reading: clocks.ClockReading) -> str:
+def _who(reading: ClockReading) -> str:
     return lane(*reading.body)
 
 

@@ -15,7 +15,7 @@ from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.paced_events import PacedPhase
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, paced_phases, shown
 from ucm_cts.reference_models.model.runtime import has_meaningless_values, raises
-from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
+from ucm_cts.reference_models.model.service_policies import BESIDE_EXECUTION, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _SUPPORT = {
@@ -98,7 +98,7 @@ def _refused(
         yield check.kept(_PRIORITIES)
     applied = [p for p in declaration.policies if p.definition in s.EXTENDED]
     excused = bool(wrong) or policies.is_contradictory(declaration) or len(applied) > 1
-    excused = excused or bool(policies_of(declaration, *SERVICES)) or policies.has_unknown_policy(declaration)
+    excused = excused or bool(policies_of(declaration, *BESIDE_EXECUTION)) or policies.has_unknown_policy(declaration)
     if excused or raises(declaration, "on_init", "on_startup", "set_container_interface"):
         return
     is_zero = policy.settings.get(s.PRIORITY[policy.definition]) == 0

@@ -7,8 +7,8 @@ from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.model.execution_policies import extended_policy, managed_ports
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import PacedPhase
-from ucm_cts.reference_models.model.paced_phases import end_of_phase, paced_phases
-from ucm_cts.reference_models.model.runtime import Member
+from ucm_cts.reference_models.model.paced_phases import paced_phases
+from ucm_cts.reference_models.model.phases import is_outside
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _PHASES, _RESTARTS = "R-10.5.2-20", "R-10.5.2-21"
@@ -30,9 +30,9 @@ def executed_in_its_phases(check: Property, runtime: ObservedRuntime) -> Conclus
             enter = execution.enter
             if execution.way != "run" and execution.way not in managed:
                 continue
-            if execution.way != "run" and execution.call is not None and _is_outside(runtime, member, execution.call.n):
+            if execution.way != "run" and execution.call is not None and is_outside(runtime, member, execution.call.n):
                 continue  # whoever calls a component that is not operational gets what 11.2.3 says
-            if _is_outside(runtime, member, enter.n):
+            if is_outside(runtime, member, enter.n):
                 yield check.fail(
                     "not operational",
                     expected=f"'{member.lane}' is executed after its on_startup returned and before stop returned",
@@ -40,17 +40,6 @@ def executed_in_its_phases(check: Property, runtime: ObservedRuntime) -> Conclus
                     at=(enter.n,),
                 )
                 break
-
-
-def _is_outside(runtime: ObservedRuntime, member: Member, n: int) -> bool:
-    """Is the event before the component's first on_startup has returned, or after an operation that ended its last phase?"""
-    begun = [startup for startup in runtime.executions.startups[member.body] if startup[0].n < n]
-    if not begun:
-        return True
-    enter, exit_ = begun[-1]
-    if exit_ is None or exit_.n > n:
-        return True
-    return end_of_phase(runtime, member, enter) < n
 
 
 @property_at("closed", _PHASES, feature="paced")

@@ -9,7 +9,7 @@ from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Connection, Member, lane
-from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
+from ucm_cts.reference_models.model.service_policies import BESIDE_EXECUTION, policy_elements
 from ucm_cts.reference_models.model.start_effects import handed_over
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -49,7 +49,7 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]], changing: s
 
     ``changing``: the port that is being connected; what is handed over for it may be of before or of afterwards.
     """
-    required = (*member.declaration.requires, *policy_elements(member.declaration, *SERVICES))
+    required = (*member.declaration.requires, *policy_elements(member.declaration, *BESIDE_EXECUTION))
     foreign = [p for p in given if p not in required]
     if foreign:
         names = ", ".join(required) or "nothing"

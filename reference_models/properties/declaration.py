@@ -44,9 +44,9 @@ Moment = Literal[_Always, _WithInteractions]
 ``closed``: the trace is over.
 """
 
-Feature = Literal["", "policies", "paced", "interactions", "extended", "fragments", "attributes"]
+Feature = Literal["", "policies", "paced", "timers", "interactions", "extended", "fragments", "attributes"]
 """The feature that a scenario must use for a property to apply: none; where components have policies; where some
-have policies of 10.5 (``paced``); where interactions are followed, because port elements have interfaces or components policies; where connectors of 10.4 are bound to types (``extended``);
+have policies of 10.5 (``paced``), or index timers (``timers``); where interactions are followed, because port elements have interfaces or components policies; where connectors of 10.4 are bound to types (``extended``);
 where components are fragments, or have attributes.
 """
 

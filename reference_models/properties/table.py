@@ -8,6 +8,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.execution_policies import extended_policy
 from ucm_cts.reference_models.model.executions import Caller
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
+from ucm_cts.reference_models.model.service_policies import has_timers
 from ucm_cts.reference_models.properties import (  # noqa: F401 - importing these registers all properties
     clause_10_1_1,
     clause_10_1_2,
@@ -19,6 +20,10 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_10_1_5,
     clause_10_1_6,
     clause_10_1_6_phases,
+    clause_10_3_2,
+    clause_10_3_2_end,
+    clause_10_3_2_expiry,
+    clause_10_3_2_times,
     clause_10_4,
     clause_10_4_1,
     clause_10_4_1_2,
@@ -83,6 +88,8 @@ def features_of(scenario: s.Scenario) -> frozenset[Feature]:
             features.update(("policies", "interactions"))
         if extended_policy(declaration) is not None:
             features.add("paced")
+        if has_timers(declaration):
+            features.add("timers")
         if declaration.fragment:
             features.add("fragments")
         if declaration.attributes or declaration.defaults:

@@ -19,12 +19,14 @@ from ucm_cts.adapters.reference.python.members import HasMembers, Member
 from ucm_cts.adapters.reference.python.pacing import Pace, PacedExecutor
 from ucm_cts.adapters.reference.python.request_response import RequestResponseLink
 from ucm_cts.adapters.reference.python.shared_data import SharedDataLink
+from ucm_cts.adapters.reference.python.timers import Timers
 
 CONTAINER = ("11", "12.10")
 POLICIES = ("10.1.3",)
 REQUESTS = ("10.4.1",)
 SHARED = ("10.4.2",)
 PACED = ("10.5",)
+TIMED = ("10.3",)
 CORE = ("10.1.1", "10.1.2", "10.1.4", "10.1.5", "10.1.6")
 
 
@@ -100,7 +102,7 @@ def bind(name: str, part: type, doc: str | None = None) -> type[ReferenceAdapter
     """An adapter for the reference framework with ``part`` in the place where it belongs.
 
     A ``Link`` is the class of all connectors of 10.1, a ``RequestResponseLink`` of those of 10.4.1, a ``SharedDataLink`` of those of
-    10.4.2; a ``Pace`` and a ``PacedExecutor`` serve components of 10.5; a ``Proxy`` is what ``get_port_element`` returns, a ``PeerProxy`` what components get at start, and any other class is a
+    10.4.2; a ``Pace`` and a ``PacedExecutor`` serve components of 10.5, ``Timers`` those of 10.3.2; a ``Proxy`` is what ``get_port_element`` returns, a ``PeerProxy`` what components get at start, and any other class is a
     mixin in front of both container classes.
     """
     mixin = part
@@ -114,6 +116,8 @@ def bind(name: str, part: type, doc: str | None = None) -> type[ReferenceAdapter
         mixin = type(name, (Base,), {"pace_class": part})
     elif issubclass(part, PacedExecutor):
         mixin = type(name, (Base,), {"paced_executor_class": part})
+    elif issubclass(part, Timers):
+        mixin = type(name, (Base,), {"timers_class": part})
     elif issubclass(part, Proxy):
         giver = HandsOverProxies if issubclass(part, PeerProxy) else GivesOutProxies
         mixin = type(name, (giver,), {"proxy": part})

@@ -64,7 +64,7 @@ std::shared_ptr<lwucm::PortElementObject> stand_in(const std::string&,
 }
 
 lwucm::Implementation implementation(const ucm_cts::ShapedImplementation<Lwucm>& one) {
-    lwucm::Policies policies = {{}, one.get_policy_element, stand_in};
+    lwucm::Policies policies = {{}, one.get_policy_element, stand_in, one.get_policy_port};
     for (const ucm_cts::Policy& policy : one.policies) {
         policies.applied.push_back(
             {policy.definition, policy.port, policy.parameters, policy.element, policy.settings});

@@ -16,12 +16,13 @@ from collections.abc import Mapping, Sequence
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.reference.python.connectors import AnyLink, Link
-from ucm_cts.adapters.reference.python.container_services import OffersServices, Record
+from ucm_cts.adapters.reference.python.container_services import Record
 from ucm_cts.adapters.reference.python.extensions import UsesExtensions
+from ucm_cts.adapters.reference.python.index_timers import SetsTimers
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
-class Container(OffersServices, UsesExtensions):
+class Container(SetsTimers, UsesExtensions):
     """Members with a common life cycle (11.2.2.1)."""
 
     manager: ContainerManager

@@ -10,6 +10,7 @@ from enum import Enum
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.reference.python.execution import Execution
+from ucm_cts.adapters.reference.python.timers import Timers
 
 
 class State(Enum):
@@ -32,6 +33,7 @@ class Member:
         self.state = State.CONFIGURING
         self.execution = Execution(implementation.policies)
         self.traced: dict[str, pm.PortElementObject] = {}
+        self.timers: Timers | None = None
 
 
 @dataclass(frozen=True)

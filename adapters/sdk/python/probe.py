@@ -122,6 +122,8 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._ports = {port: ProbePort(self, port) for port in declaration.provides}
         executes_itself = any(s.is_self_executing(policy.definition) for policy in declaration.policies)
         self._execution = ProbeExecution(self) if executes_itself else None
+        has_timers = any(policy.definition == s.INDEX_TIMERS for policy in declaration.policies)
+        self._timer_callback = ProbePort(self, s.TIMER_CALLBACK) if has_timers else None
         self._attributes: dict[str, str] = {}
         self._references: dict[str, list[pm.PortElementObject]] = {}
         self._given = Memory(declaration.plan)
@@ -129,7 +131,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
 
     def parts(self) -> tuple[object, ...]:
         """All that frameworks are given of it."""
-        return (self, *self._ports.values(), *filter(None, [self._execution]))
+        return (self, *self._ports.values(), *filter(None, [self._execution, self._timer_callback]))
 
     def set_attribute(self, name: str, value: str) -> None:
         if isinstance(name, str):
@@ -168,6 +170,9 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
     def get_policy_element(self, policy: str, element: str) -> pm.ComponentExecution | None:
         asked = isinstance(policy, str) and s.is_self_executing(policy) and element == s.SELF_EXECUTION_API
         return self._execution if asked else None
+
+    def get_policy_port(self, policy: str, element: str) -> pm.PortElementObject | None:
+        return self._timer_callback if (policy, element) == (s.INDEX_TIMERS, s.TIMER_CALLBACK) else None
 
     def run(self) -> None:
         """What the container of a self-executing probe calls."""
@@ -253,6 +258,8 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
                 self._call(action.port, reference, action.value)
         elif isinstance(action, s.CallMethod):
             arguments = self._given.arguments(action, entry)
+            if arguments is not None and action.from_clock is not None:
+                arguments = self._dated(action.from_clock, arguments)
             for reference in tuple(self._references.get(action.port, ())) if arguments is not None else ():
                 self._call_method(action, reference, arguments or ())
         elif isinstance(action, s.Burst):
@@ -264,6 +271,12 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         elif isinstance(action, s.QuerySiblings):
             self._query_siblings()
 
+    def _dated(self, of: s.FromClock, arguments: tuple[Datum, ...]) -> tuple[Datum, ...] | None:
+        """``arguments`` with a date; None if the body holds no clock, or it gives no time."""
+        clocks = self._references.get(of.port, ())
+        time = self._call_method(s.CallMethod(of.port, of.method), clocks[0], ()) if clocks else ()
+        return s.date_from(arguments, of.argument, time)
+
     def _call(self, port: str, reference: pm.PortElementObject, value: int) -> None:
         self._record(t.Request, port=port, value=value)
         try:
@@ -274,26 +287,32 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         given: dict[str, Any] = {"value": int(result)} if is_integer(result) else {"wrong": in_words(result)}
         self._record(t.Reply, port=port, **given)
 
-    def _call_method(self, action: s.CallMethod, reference: pm.PortElementObject, given: tuple[Datum, ...]) -> None:
+    def _call_method(
+        self, action: s.CallMethod, reference: pm.PortElementObject, given: tuple[Datum, ...]
+    ) -> Sequence[Datum]:
+        """Returns the results as recorded, nothing if it raised."""
         arguments = list(snapshot(given))
+        answer: Sequence[Datum] = ()
         self._record(t.Request, port=action.port, method=action.method, arguments=given)
         try:
             results = reference.call(action.method, arguments)
         except pm.DeclaredException as error:
-            self._reply(action, error.fields, error.name)
+            answer = self._reply(action, error.fields, error.name)
         except Exception:  # noqa: BLE001 - the callee may raise anything
             self._record(t.Reply, port=action.port, raised=True)
         else:
-            self._reply(action, results)
+            answer = self._reply(action, results)
         overwrite(arguments)  # they are the caller's own
+        return answer
 
-    def _reply(self, action: s.CallMethod, results: Any, exception: str | None = None) -> None:
+    def _reply(self, action: s.CallMethod, results: Any, exception: str | None = None) -> Sequence[Datum]:
         wrong = ""
         if not (isinstance(results, list | tuple) and is_datum(results)):
             wrong, results = in_words(results), ()
         elif not isinstance(exception, str | None):
             wrong, exception = f"an exception called {in_words(exception)}", None
         self._record(t.Reply, port=action.port, results=snapshot(results), exception=exception, wrong=wrong)
+        return () if exception is not None else snapshot(results)
 
     def _push(self, action: s.Burst, reference: pm.PortElementObject) -> None:
         answers: dict[str, int] = {}

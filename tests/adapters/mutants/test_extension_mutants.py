@@ -1,16 +1,16 @@
-"""Mutants of the parts of 10.4 and 10.5 fail for the right reason; variants and the reference framework do not fail."""
+"""Mutants of the parts of 10.3, 10.4 and 10.5 fail for the right reason; variants and the reference framework do not fail."""
 
 from __future__ import annotations
 
 import pytest
-from performing import judged
 from pipeline import check_killed
 
-from ucm_cts.adapters.mutants.python import PACED, REQUESTS, SHARED, Mutant, mutants_of, variants_of
-from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.mutants.python import PACED, REQUESTS, SHARED, TIMED, Mutant, mutants_of, variants_of
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
-from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.driver import Driver
+from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.models.core_models import CHECKS
+from ucm_cts.harness.purposes.derived.index_timers import index_timer_purposes
 from ucm_cts.harness.purposes.derived.paced_calls import paced_call_purposes
 from ucm_cts.harness.purposes.derived.paced_policies import NAMES, policy_purposes
 from ucm_cts.harness.purposes.derived.paced_runs import run_purposes
@@ -24,13 +24,14 @@ from ucm_cts.reference_models.monitor import Monitor
 pytestmark = pytest.mark.slow
 
 PARTS = {
+    ("index-timers", "timers"): index_timer_purposes,
     ("request-response",): request_purposes,
     ("shared-data",): shared_data_purposes,
     ("execution", *NAMES): lambda: [*policy_purposes(), *run_purposes(), *paced_call_purposes()],
 }
 """The purposes of each part, or of parts that have some in common."""
 
-MUTANTS = mutants_of((*REQUESTS, *SHARED, *PACED))
+MUTANTS = mutants_of((*TIMED, *REQUESTS, *SHARED, *PACED))
 
 
 @pytest.mark.parametrize("mutant", MUTANTS.values(), ids=MUTANTS.keys())
@@ -38,7 +39,7 @@ def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
     check_killed(mutant)
 
 
-@pytest.mark.parametrize("name", variants_of((*REQUESTS, *SHARED, *PACED)))
+@pytest.mark.parametrize("name", variants_of((*TIMED, *REQUESTS, *SHARED, *PACED)))
 def test_conformant_framework_is_not_failed(name: str) -> None:
     result = examine_variant(all_variants()[name], Thoroughness())
     assert (result.failed, result.incidents, result.trouble) == ((), (), "")
@@ -48,14 +49,15 @@ def test_conformant_framework_is_not_failed(name: str) -> None:
 def test_each_requirement_arises_and_is_kept(parts: tuple[str, ...]) -> None:
     """On the reference framework, in the scenarios of this part alone."""
     monitor = Monitor(load_life_cycle(), Ics(stated_by(None, "reference-py").readings))
+    # those with "broken when" take long and show nothing more
+    cases = [case for purpose in PARTS[parts]() for case in purpose.scenarios if "broken when" not in case[0]]
     kept: set[str] = set()
-    for name, whole in (case for purpose in PARTS[parts]() for case in purpose.scenarios):
-        if "broken when" in name:  # they take long and show nothing more
-            continue
-        # in disguise, because the framework makes the names of port elements of those of ports
-        verdicts = judged(monitor, Disguise(1, ReferenceAdapter.port_element_name).scenario(whole))
-        assert verdicts.findings == [], name
-        kept |= verdicts.exercises.keys()
+    with Driver(locate("reference-py", virtual_time=True), 1) as driver:
+        for answer in driver.run(cases):
+            assert answer.incident is None, answer.name
+            verdicts = monitor.judge(answer.disguised, answer.trace)
+            assert verdicts.findings == [], answer.name
+            kept |= verdicts.exercises.keys()
     due = {r.id for r in requirements_of("extensions") if r.part in parts and r.rules}
     assert {one for one in due if not CHECKS.keys() & {*_rules(one)}} <= kept
 

@@ -123,6 +123,73 @@ def test_stress_counts_overlaps(java: JavaBuilds) -> None:
     assert [event.hook for event in trace if isinstance(event, t.Enter)] == ["on_init", "exchange"], "silent meanwhile"
 
 
+CALLING_BACK = """
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import org.ucmcts.Adapter;
+import org.ucmcts.Body;
+import org.ucmcts.Host;
+import org.ucmcts.Implementation;
+import org.ucmcts.PortElement;
+import org.ucmcts.Product;
+
+/** Calls back at once, when it is started, each body that has a timer_callback. */
+public final class CallingBack extends Adapter<String> {
+    private List<Implementation> all;
+
+    public static void main(String[] arguments) {
+        Host.serve(arguments, new Product("calling back", "0"), CallingBack::new);
+    }
+
+    @Override public String createRuntime(List<Implementation> implementations) { all = implementations; return ""; }
+
+    @Override public void start(String container) {
+        for (Implementation one : all) {
+            Body body = one.create().get();
+            PortElement callback = body.getPolicyPort("itt_timer", "timer_callback");
+            boolean isOnly = body.getPolicyPort("clock", "timer_callback") == null
+                    && body.getPolicyPort("itt_timer", "timer_service") == null
+                    && body.getPolicyPort(null, null) == null;
+            if (callback != null && isOnly) {
+                callback.call("on_timeout", new ArrayList<>(List.of(List.of(5, "RELATIVE_TIME"), 7)));
+            }
+        }
+    }
+
+    @Override public int addComponent(String container, String name, Map<String, String> attributes) { return 1; }
+    @Override public void removeComponent(String container, int component) {}
+    @Override public PortElement getPortElement(String container, int component, String port) { return null; }
+    @Override public int connect(String container, int component, String port, PortElement to) { return 1; }
+    @Override public void disconnect(String container, int connection) {}
+    @Override public void stop(String container) {}
+    @Override public List<Integer> getComponents(String container) { return List.of(); }
+    @Override public String createContainer(String manager) { return ""; }
+    @Override public void removeContainer(String manager, String container) {}
+    @Override public void destroy(String manager) {}
+}
+"""
+
+
+def test_bodies_with_timers_have_a_callback(java: JavaBuilds) -> None:
+    (java.folder / "CallingBack.java").write_text(CALLING_BACK)
+    compiler = ["javac", "-Xlint:all", "-Werror", "--release", "17", "-cp", "classes:lib/*", "-d", "classes"]
+    run_program([*compiler, "CallingBack.java"], cwd=java.folder)
+    answers: dict[s.Hook, tuple[s.Action, ...]] = {"method": (s.Answer("on_timeout"),)}
+    timed = s.Declaration(plan=answers, policies=(s.Policy(s.INDEX_TIMERS, element="timers"),))
+    scenario = s.Scenario({"A": timed, "B": s.Declaration(policies=(s.Policy(s.CLOCK, element="c"),))}, (s.Start(),))
+    trace = events(java.program("CallingBack"), scenario)
+    assert contradiction(scenario, trace) is None
+    (entered,) = (event for event in trace if isinstance(event, t.Enter))
+    assert (entered.component, entered.hook, entered.port, entered.method) == (
+        "A",
+        "method",
+        s.TIMER_CALLBACK,
+        "on_timeout",
+    )
+    assert entered.arguments == ([5, s.RELATIVE_TIME], 7)
+
+
 # the wire
 
 

@@ -302,6 +302,8 @@ void what_does_not_fit_is_refused() {
 
     School executing({}, {{"protected_self-executing_component", "", {}, "", {}}});
     CHECK(refused([&] { executing.runtime->add_component({{"implementation", "Head"}}); }));
+    School timed({}, {{"itt_timer", "", {}, "timers", {}}});
+    CHECK(refused([&] { timed.runtime->add_component({{"implementation", "Head"}}); }));
 
     class Foreign final : public PortElementObject {};
     School strange;

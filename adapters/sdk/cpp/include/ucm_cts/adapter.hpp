@@ -128,6 +128,9 @@ class Body {
                                                                    const std::string& /*element*/) {
         return nullptr;
     }
+
+    /// The same, for a port element with an interface, as `timer_callback` of the index timers (10.3.2).
+    virtual Reference get_policy_port(const std::string& /*policy*/, const std::string& /*element*/) { return nullptr; }
 };
 
 /// A component implementation the framework shall be able to instantiate. Its bodies may outlive the scenario.

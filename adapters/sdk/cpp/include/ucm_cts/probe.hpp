@@ -18,6 +18,7 @@
 #include "ucm_cts/memory.hpp"
 #include "ucm_cts/scenario.hpp"
 #include "ucm_cts/stage.hpp"
+#include "ucm_cts/timers.hpp"
 
 namespace ucm_cts {
 
@@ -229,19 +230,29 @@ class Probe {
 
     void call_method(const Action& action, const Entry& now) {
         Data given;
-        if (memory_.arguments(action, now, given)) {
+        if (memory_.arguments(action, now, given) && (!action.has_from_clock || date(action.from_clock, given))) {
             for (const Reference& reference : references(action.port)) {
-                call_method(action, given, *reference);
+                call_method(action.port, action.method, given, *reference);
             }
         }
     }
 
-    void call_method(const Action& action, const Data& given, PortElement& callee) {
+    // Has the time-out among `arguments` count from what the body's clock shows; false if there is none, or it gives no time.
+    bool date(const FromClock& of, Data& arguments) {
+        const std::vector<Reference> clocks = references(of.port);
+        return !clocks.empty() &&
+               date_from(call_method(of.port, of.method, Data(), *clocks[0]), of.argument, arguments);
+    }
+
+    // Returns the results as recorded, nothing if it raised.
+    Data call_method(const std::string& port, const std::string& method, const Data& given, PortElement& callee) {
         const std::shared_ptr<Data> arguments = buffer(given);
-        record(request(action.port).method(action.method).arguments(given));
-        events::Reply replied = reply(action.port);
+        record(request(port).method(method).arguments(given));
+        events::Reply replied = reply(port);
+        Data results;
         try {
-            put(replied, callee.call(action.method, *arguments));
+            results = callee.call(method, *arguments);
+            put(replied, results);
         } catch (const DeclaredException& error) {
             put(replied, error.fields);
             replied.exception(error.name);
@@ -250,6 +261,10 @@ class Probe {
         }
         record(replied);
         overwrite(*arguments);
+        if (!are_data(results)) {
+            results.clear();
+        }
+        return results;
     }
 
     // `results` if they are values; if not, none, and what they are.

@@ -2,6 +2,7 @@
 #ifndef UCM_CTS_PROBE_BODY_HPP
 #define UCM_CTS_PROBE_BODY_HPP
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -49,6 +50,11 @@ class ProbeBody final : public Body {
     explicit ProbeBody(std::shared_ptr<Probe> probe) : probe_(std::move(probe)) {
         for (const std::string& port : probe_->declaration().provided) {
             ports_.push_back(std::make_shared<ProbePort>(probe_, port));
+        }
+        const std::vector<Policy>& policies = probe_->declaration().policies;
+        if (std::any_of(policies.begin(), policies.end(),
+                        [](const Policy& policy) { return policy.definition == INDEX_TIMERS; })) {
+            timer_callback_ = std::make_shared<ProbePort>(probe_, TIMER_CALLBACK);
         }
     }
 
@@ -111,6 +117,10 @@ class ProbeBody final : public Body {
         return nullptr;
     }
 
+    Reference get_policy_port(const std::string& policy, const std::string& element) override {
+        return policy == INDEX_TIMERS && element == TIMER_CALLBACK ? timer_callback_ : nullptr;
+    }
+
   private:
     // What is too much of it, empty if nothing is.
     static std::string excess(const std::vector<PortConnection>& dependencies) {
@@ -133,6 +143,7 @@ class ProbeBody final : public Body {
 
     const std::shared_ptr<Probe> probe_;
     std::vector<std::shared_ptr<ProbePort>> ports_;
+    std::shared_ptr<ProbePort> timer_callback_;  // if it has index timers
     Attributes attributes_;
 };
 

@@ -28,6 +28,10 @@ inline bool is_self_executing(const std::string& policy) {
     return policy == SELF_EXECUTING || policy == PERIODIC_SELF_EXECUTING || policy == BACKGROUND;
 }
 
+/// The policy that gives a component index timers (10.3.2), and the port element that it makes it provide.
+const char* const INDEX_TIMERS = "itt_timer";
+const char* const TIMER_CALLBACK = "timer_callback";
+
 /// The method of messages (10.1.6).
 const char* const PUSH = "push";
 

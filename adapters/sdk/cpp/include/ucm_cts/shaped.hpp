@@ -84,7 +84,8 @@ Properties properties(const std::string& name, const std::string& implementation
 ///   - `static std::shared_ptr<PortElementObject> typed(const Reference& own, const SharedInterface&)`: a port element of
 ///     the framework, each method of which is `own->call(method, arguments)`; what that throws as DeclaredException, it
 ///     throws in the framework's way. Its class also derives from `ProbesOwn(own)`, so that the SDK recognises it. Asked
-///     for once a port element. The null pointer stands for a port element without interface.
+///     for once a port element, and for that of a policy whenever the framework asks the body. The null pointer stands for a
+///     port element without interface.
 ///   - `static Data call(PortElementObject&, const std::string& method, const Data& arguments)`: calls a method of
 ///     any object that the framework handed over: what `typed` made, what stands before it, or the framework's own port element
 ///     for a policy. A declared exception leaves it as DeclaredException, any other as it is.

@@ -15,6 +15,7 @@
 
 #include "ucm_cts/adapter.hpp"
 #include "ucm_cts/binding.hpp"
+#include "ucm_cts/timers.hpp"
 
 namespace ucm_cts {
 namespace detail {
@@ -223,6 +224,7 @@ class NamedFeatures {
     virtual void set_attribute(const std::string& name, const std::string& value) = 0;
     virtual std::shared_ptr<ComponentExecution> get_policy_element(const std::string& policy,
                                                                    const std::string& element) = 0;
+    virtual Reference get_policy_port(const std::string& policy, const std::string& element) = 0;
 };
 
 /// A body in the framework's shape: a ComponentObject (`Base` is it, or derives from it).
@@ -241,6 +243,10 @@ class ShapedBody : public Base, public NamedFeatures {
     std::shared_ptr<ComponentExecution> get_policy_element(const std::string& policy,
                                                            const std::string& element) override {
         return body_->get_policy_element(policy, element);
+    }
+
+    Reference get_policy_port(const std::string& policy, const std::string& element) override {
+        return body_->get_policy_port(policy, element);
     }
 
     void on_init() override { body_->on_init(); }
@@ -363,6 +369,7 @@ class ShapedConnectable final : public Base, public Traits::Connectable {
 template <class Traits>
 struct ShapedImplementation {
     typedef typename Traits::ComponentObject ComponentObject;
+    typedef typename Traits::PortElementObject PortElementObject;
     typedef typename std::remove_pointer<decltype(detail::execution_of<Traits>(0))>::type Execution;
 
     std::string name;
@@ -383,6 +390,11 @@ struct ShapedImplementation {
     std::function<std::shared_ptr<Execution>(ComponentObject&, const std::string&, const std::string&)>
         get_policy_element;
 
+    /// The same for a port element with an interface, which Traits::typed makes: `timer_callback` of the index timers (10.3.2),
+    /// whose method is `on_timeout`.
+    std::function<std::shared_ptr<PortElementObject>(ComponentObject&, const std::string&, const std::string&)>
+        get_policy_port;
+
     /// For frameworks with typed interfaces: those of the port elements that have one.
     Interfaces interfaces;
 
@@ -402,6 +414,10 @@ struct ShapedImplementation {
           get_policy_element([](ComponentObject& body, const std::string& policy, const std::string& element) {
               const auto execution = dynamic_cast<NamedFeatures&>(body).get_policy_element(policy, element);
               return execution ? std::make_shared<ShapedExecution<Execution>>(execution) : nullptr;
+          }),
+          get_policy_port([](ComponentObject& body, const std::string& policy, const std::string& element) {
+              const Reference own = dynamic_cast<NamedFeatures&>(body).get_policy_port(policy, element);
+              return own ? detail::typed<Traits>(own, timer_callback_interface(), 0) : nullptr;
           }),
           interfaces(from.interfaces) {}
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lwucm/component.hpp"
@@ -44,19 +45,37 @@ class Interceptor {
 
 /// The technical policies of an implementation and the code that is generated for them.
 struct Policies {
+    typedef std::function<std::shared_ptr<component_execution_intf>(ComponentObject& body, const std::string& policy,
+                                                                    const std::string& element)>
+        GetPolicyElement;
+    typedef std::function<std::shared_ptr<PortElementObject>(const std::string& port,
+                                                             const std::shared_ptr<PortElementObject>& target,
+                                                             const std::shared_ptr<Interceptor>& interceptor)>
+        Intercept;
+    typedef std::function<std::shared_ptr<PortElementObject>(ComponentObject& body, const std::string& policy,
+                                                             const std::string& element)>
+        GetPolicyPort;
+
+    Policies() = default;
+    Policies(std::vector<Policy> all, GetPolicyElement how_to_get_element, Intercept how_to_intercept,
+             GetPolicyPort how_to_get_port = GetPolicyPort())
+        : applied(std::move(all)),
+          get_policy_element(std::move(how_to_get_element)),
+          intercept(std::move(how_to_intercept)),
+          get_policy_port(std::move(how_to_get_port)) {}
+
     std::vector<Policy> applied;
 
     /// Calls the body's operation get_tp_<policy>_<element> (12.8.5).
-    std::function<std::shared_ptr<component_execution_intf>(ComponentObject& body, const std::string& policy,
-                                                            const std::string& element)>
-        get_policy_element;
+    GetPolicyElement get_policy_element;
 
     /// A port element with the interface of port element `port`, each operation of which is an `interceptor->call` of that
     /// of `target`. Not needed for port elements that are DynamicPortElements.
-    std::function<std::shared_ptr<PortElementObject>(const std::string& port,
-                                                     const std::shared_ptr<PortElementObject>& target,
-                                                     const std::shared_ptr<Interceptor>& interceptor)>
-        intercept;
+    Intercept intercept;
+
+    /// As `get_policy_element`, for port elements other than self-execution_api: the timer_callback of policy itt_timer, which is
+    /// a DynamicPortElement.
+    GetPolicyPort get_policy_port;
 };
 
 }  // namespace lwucm

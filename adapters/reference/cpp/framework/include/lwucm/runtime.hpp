@@ -12,6 +12,7 @@
 #include "lwucm/links.hpp"
 #include "lwucm/options.hpp"
 #include "lwucm/repository.hpp"
+#include "lwucm/timers.hpp"
 
 namespace lwucm {
 

@@ -180,6 +180,7 @@ inline void host_typed(Implementation& implementation, const std::function<std::
     implementation.policies.get_policy_element = [](ComponentObject& body, const std::string&, const std::string&) {
         return dynamic_cast<detail::TypedObject&>(body).body->execution();
     };
+    implementation.policies.get_policy_port = nullptr;  // no typed port element can be called by name
     implementation.policies.intercept = [names, provided, required](
                                             const std::string& port, const std::shared_ptr<PortElementObject>& target,
                                             const std::shared_ptr<Interceptor>& interceptor) {

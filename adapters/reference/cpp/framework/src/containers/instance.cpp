@@ -102,9 +102,11 @@ void Instance::start() {
         dependencies.push_back(std::move(service));
     }
     notify_ends(&End::starting);
+    execution_.open();
     try {
         execution_.enter([&] { body_->on_startup(dependencies); });
     } catch (...) {
+        execution_.end();
         shut_ends();
         notify_ends(&End::shutting_down);
         throw;

@@ -1,5 +1,6 @@
 #include "execution/execution.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "lwucm/errors.hpp"
@@ -10,6 +11,8 @@ namespace lwucm {
 namespace {
 
 const std::string SELF_EXECUTION_API = "self-execution_api";
+const std::string INDEX_TIMERS = "itt_timer";
+const std::string TIMER_CALLBACK = "timer_callback";
 
 }  // namespace
 
@@ -22,6 +25,7 @@ Execution::Execution(componentId id, std::shared_ptr<const Implementation> imple
     if (demands_.protection != Protection::none) {
         make_guards(body);
     }
+    make_timers(body);
 }
 
 Execution::~Execution() { close(); }
@@ -57,6 +61,22 @@ void Execution::make_guards(ComponentObject& body) {
     }
 }
 
+void Execution::make_timers(ComponentObject& body) {
+    const auto are_timers = [](const RequiredService& one) { return one.kind == RequiredService::Kind::timers; };
+    if (std::none_of(demands_.services.begin(), demands_.services.end(), are_timers)) {
+        return;
+    }
+    std::shared_ptr<PortElementObject> callback;
+    if (implementation_->policies.get_policy_port) {
+        callback = implementation_->policies.get_policy_port(body, INDEX_TIMERS, TIMER_CALLBACK);
+    }
+    const auto dynamic = std::dynamic_pointer_cast<DynamicPortElement>(callback);
+    if (!dynamic) {
+        throw UCM_ERROR("the component gives no " + TIMER_CALLBACK);
+    }
+    timers_ = std::make_shared<Timers>(dynamic, guard_, platform_.clock);
+}
+
 std::shared_ptr<PortElementObject> Execution::provided(const std::string& port,
                                                        const std::shared_ptr<PortElementObject>& element) {
     if (!element || (!guard_ && demands_.traces.count(port) == 0)) {
@@ -88,6 +108,8 @@ PortConnections Execution::services() const {
         std::shared_ptr<PortElementObject> element = platform_.clock;
         if (service.kind == RequiredService::Kind::trace) {
             element = std::make_shared<TraceService>(platform_.trace);
+        } else if (service.kind == RequiredService::Kind::timers) {
+            element = timers_;
         }
         connections.push_back(PortConnection{service.name, {std::move(element)}});
     }
@@ -102,12 +124,21 @@ std::shared_ptr<const PortTraces> Execution::traces_of(const std::string& port) 
     return std::make_shared<const PortTraces>(traces->second, id_, platform_);
 }
 
+void Execution::open() {
+    if (timers_) {
+        timers_->open();
+    }
+}
+
 void Execution::begin() {
     if (paced_guard_) {
         paced_guard_->begin();
     }
     if (self_execution_) {
         self_execution_->begin();
+    }
+    if (timers_) {
+        timers_->begin();
     }
 }
 
@@ -118,10 +149,16 @@ void Execution::end() {
     if (self_execution_) {
         self_execution_->end();
     }
+    if (timers_) {
+        timers_->end();
+    }
 }
 
 void Execution::close() {
     end();
+    if (timers_) {
+        timers_->close();
+    }
     if (own_executor_) {
         own_executor_->end();
     }

@@ -9,6 +9,7 @@
 
 #include "execution/interception.hpp"
 #include "execution/self_execution.hpp"
+#include "execution/timers.hpp"
 #include "lwucm/container.hpp"
 
 namespace lwucm {
@@ -45,7 +46,10 @@ class Execution {
     /// The port elements that the component requires by its policies.
     PortConnections services() const;
 
-    /// The time in which the component executes by itself, if it does.
+    /// The component is about to start.
+    void open();
+
+    /// The time in which the component executes by itself, if it does, and its timers call back.
     void begin();
     void end();
 
@@ -59,6 +63,7 @@ class Execution {
     };
 
     void make_guards(ComponentObject& body);
+    void make_timers(ComponentObject& body);
     std::shared_ptr<const PortTraces> traces_of(const std::string& port) const;
 
     const componentId id_;
@@ -70,6 +75,7 @@ class Execution {
     std::shared_ptr<Guard> active_guard_;  // of the port elements that an active policy manages
     std::shared_ptr<PacedGuard> paced_guard_;  // the same, with a policy of 10.5
     std::unique_ptr<SelfExecution> self_execution_;
+    std::shared_ptr<Timers> timers_;
     std::mutex mutex_;
     std::map<std::string, Way> ways_in_;
 };

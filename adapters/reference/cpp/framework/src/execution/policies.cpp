@@ -12,8 +12,6 @@ const char* const SELF_EXECUTING = "protected_self-executing_component";
 
 namespace {
 
-const std::string CLOCK = "clock";
-const std::string COMPONENT_TRACE = "component_trace";
 const std::string PORT_TRACE = "port_trace";
 const std::string METHODS_TO_TRACE = "methods_to_trace";
 const std::string LOG_SEVERITY = "log_severity";
@@ -53,6 +51,22 @@ const std::map<std::string, Protection>& protections() {
     return all;
 }
 
+/// A policy that makes a component require a port element: which, its name unless the policy has another one, and whether a
+/// component has several.
+struct ServicePolicy {
+    RequiredService::Kind kind;
+    std::string name;
+    bool several;
+};
+
+const std::map<std::string, ServicePolicy>& service_policies() {
+    static const std::map<std::string, ServicePolicy> all = {
+        {"clock", {RequiredService::Kind::clock, "clock_clock_api", false}},
+        {"component_trace", {RequiredService::Kind::trace, "component_trace_trace_api", true}},
+        {"itt_timer", {RequiredService::Kind::timers, "itt_timer_timer_service", false}}};
+    return all;
+}
+
 /// Reads the policies of one implementation, one by one.
 class Reading {
   public:
@@ -61,10 +75,11 @@ class Reading {
     Demands read() {
         for (const Policy& policy : implementation_.policies.applied) {
             const auto protection = protections().find(policy.definition);
+            const auto service = service_policies().find(policy.definition);
             if (protection != protections().end()) {
                 read_protection(policy, protection->second);
-            } else if (policy.definition == CLOCK || policy.definition == COMPONENT_TRACE) {
-                read_service(policy);
+            } else if (service != service_policies().end()) {
+                read_service(policy, service->second);
             } else if (policy.definition == PORT_TRACE) {
                 read_port_trace(policy);
             } else {
@@ -122,17 +137,14 @@ class Reading {
         return found->second;
     }
 
-    void read_service(const Policy& policy) {
+    void read_service(const Policy& policy, const ServicePolicy& service) {
         need_no_parameters(policy);
         need_no_port(policy);
-        const bool is_clock = policy.definition == CLOCK;
-        const auto same = [](const RequiredService& one) { return one.kind == RequiredService::Kind::clock; };
-        if (is_clock && std::any_of(demands_.services.begin(), demands_.services.end(), same)) {
-            throw UCM_ERROR("a component has one clock at most");
+        const auto same = [&service](const RequiredService& one) { return one.kind == service.kind; };
+        if (!service.several && std::any_of(demands_.services.begin(), demands_.services.end(), same)) {
+            throw UCM_ERROR("a component has policy '" + policy.definition + "' once at most");
         }
-        const std::string own = is_clock ? "clock_clock_api" : "component_trace_trace_api";
-        demands_.services.push_back({is_clock ? RequiredService::Kind::clock : RequiredService::Kind::trace,
-                                     policy.element.empty() ? own : policy.element});
+        demands_.services.push_back({service.kind, policy.element.empty() ? service.name : policy.element});
     }
 
     void read_port_trace(const Policy& policy) {

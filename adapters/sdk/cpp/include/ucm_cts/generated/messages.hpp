@@ -46,6 +46,18 @@ struct Remembered {
     std::int32_t nth = 0;
 };
 
+/// A time-out of 10.3.2 whose seconds count from what a clock of the body shows. The body reads the clock just before
+/// its call, and adds the seconds that the clock gave to those of the time-out.
+///
+/// `argument`: the time-out among the arguments, from 0.
+/// `port`: the port element of the clock.
+/// `method`: the method of the clock.
+struct FromClock {
+    std::int32_t argument = 0;
+    std::string port;
+    std::string method;
+};
+
 enum class ActionKind {
     raise, return_value, call, hold, siblings, call_method, answer, burst, count
 };
@@ -83,6 +95,10 @@ struct Action {
     /// Of call_method.
     std::int32_t given = 0;
     bool has_given = false;
+
+    /// Of call_method.
+    FromClock from_clock;
+    bool has_from_clock = false;
 
     /// Of answer.
     std::vector<Datum> results;

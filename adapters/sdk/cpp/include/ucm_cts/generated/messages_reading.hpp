@@ -13,6 +13,7 @@ namespace ucm_cts {
 
 inline void read(const json::Value& value, Hello& into);
 inline void read(const json::Value& value, Remembered& into);
+inline void read(const json::Value& value, FromClock& into);
 inline void read(const json::Value& value, Action& into);
 inline void read(const json::Value& value, Policy& into);
 inline void read(const json::Value& value, Declaration& into);
@@ -42,6 +43,14 @@ inline void read(const json::Value& value, Remembered& into) {
     fields.end();
 }
 
+inline void read(const json::Value& value, FromClock& into) {
+    json::Fields fields(value);
+    fields.required("argument", into.argument);
+    fields.required("port", into.port);
+    fields.required("method", into.method);
+    fields.end();
+}
+
 inline void read_members(json::Fields& fields, Action& into) {
     switch (into.kind) {
         case Action::Kind::raise:
@@ -64,6 +73,7 @@ inline void read_members(json::Fields& fields, Action& into) {
             fields.optional("arguments", into.arguments);
             fields.optional("remembered", into.remembered);
             into.has_given = fields.nullable("given", into.given);
+            into.has_from_clock = fields.nullable("from_clock", into.from_clock);
             break;
         case Action::Kind::answer:
             fields.required("method", into.method);

@@ -65,6 +65,41 @@ final class Messages {
         return REMEMBERED.read(value, place);
     }
 
+    private static final Shape FROMCLOCK = object(FromClock::new,
+            needs("argument", INT32),
+            needs("port", TEXT),
+            needs("method", TEXT));
+
+    /**
+     * A time-out of 10.3.2 whose seconds count from what a clock of the body shows. The body reads the clock just
+     * before its call, and adds the seconds that the clock gave to those of the time-out.
+     *
+     * `argument`: the time-out among the arguments, from 0.
+     * `port`: the port element of the clock.
+     * `method`: the method of the clock.
+     */
+    static final class FromClock extends Node {
+        private FromClock(Map<String, Object> fields) {
+            super(fields);
+        }
+
+        long argument() {
+            return number("argument");
+        }
+
+        String port() {
+            return text("port");
+        }
+
+        String method() {
+            return text("method");
+        }
+    }
+
+    static Object readFromClock(Object value, String place) throws Misfit {
+        return FROMCLOCK.read(value, place);
+    }
+
     private static final Shape ACTION = tagged("do", Action::new,
             new Kind("raise"),
             new Kind("return",
@@ -80,7 +115,8 @@ final class Messages {
                     needs("method", TEXT),
                     may("arguments", list(DATUM), List.of()),
                     may("remembered", list(Messages::readRemembered), List.of()),
-                    may("given", orNull(INT32), null)),
+                    may("given", orNull(INT32), null),
+                    may("from_clock", orNull(Messages::readFromClock), null)),
             new Kind("answer",
                     needs("method", TEXT),
                     may("results", orNull(list(DATUM)), null),
@@ -136,6 +172,11 @@ final class Messages {
         /** Of call_method. */
         Long given() {
             return numberOrNull("given");
+        }
+
+        /** Of call_method. */
+        FromClock fromClock() {
+            return as(get("from_clock"));
         }
 
         /** Of answer. */

@@ -5,6 +5,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
 import org.ucmcts.Messages.Action;
+import org.ucmcts.Messages.FromClock;
 
 /** The actions of a probe's plan that call others, wait or ask. */
 final class Actions {
@@ -23,14 +24,15 @@ final class Actions {
     /** Carries {@code action} of the plan for {@code entry} out; kinds that are not listed have no effect. */
     void act(Action action, Memory.Entry entry) {
         switch (action.tag()) {
-            case "call" -> referencesOf(action).forEach(reference -> exchange(action, reference));
+            case "call" -> referencesOf(action.port()).forEach(reference -> exchange(action, reference));
             case "call_method" -> {
-                List<Object> given = probe.memory.arguments(action, entry);
+                List<Object> given = arguments(action, entry);
                 if (given != null) {
-                    referencesOf(action).forEach(reference -> call(action, given, reference));
+                    referencesOf(action.port()).forEach(
+                            reference -> call(action.port(), action.method(), given, reference));
                 }
             }
-            case "burst" -> referencesOf(action).forEach(reference -> push(action, reference));
+            case "burst" -> referencesOf(action.port()).forEach(reference -> push(action, reference));
             case "hold" -> {
                 String gate = action.gate();
                 probe.stage.gates.hold(gate, () -> probe.record("held", "gate", gate));
@@ -40,8 +42,24 @@ final class Actions {
         }
     }
 
-    private List<PortElement> referencesOf(Action action) {
-        return references.getOrDefault(action.port(), List.of());
+    private List<PortElement> referencesOf(String port) {
+        return references.getOrDefault(port, List.of());
+    }
+
+    /**
+     * What {@code action} calls with, null if it is not to call. The body's clock is read for an argument that is a
+     * date.
+     */
+    private List<Object> arguments(Action action, Memory.Entry entry) {
+        List<Object> given = probe.memory.arguments(action, entry);
+        FromClock of = action.fromClock();
+        if (given == null || of == null) {
+            return given;
+        }
+        List<PortElement> clocks = referencesOf(of.port());
+        return clocks.isEmpty()
+                ? null
+                : Timers.dateFrom(given, of.argument(), call(of.port(), of.method(), List.of(), clocks.get(0)));
     }
 
     private void exchange(Action action, PortElement reference) {
@@ -58,26 +76,28 @@ final class Actions {
         probe.record("reply", "port", port, "value", result);
     }
 
-    private void call(Action action, List<Object> given, PortElement reference) {
-        String port = action.port();
-        String method = action.method();
+    /** Returns the results as recorded, nothing if it threw. */
+    private List<Object> call(String port, String method, List<Object> given, PortElement reference) {
         List<Object> arguments = Data.copy(given);
+        List<Object> answer = List.of();
         probe.record("request", "port", port, "method", method, "arguments", given);
         try {
-            reply(action, reference.call(method, arguments), null);
+            answer = reply(port, reference.call(method, arguments), null);
         } catch (DeclaredException error) {
-            reply(action, error.fields(), error.name());
+            reply(port, error.fields(), error.name());
         } catch (Throwable error) { // the callee may throw anything
             probe.record("reply", "port", port, "raised", true);
         }
         Data.overwrite(arguments); // they are the caller's own
+        return answer;
     }
 
-    private void reply(Action action, List<Object> results, String exception) {
+    private List<Object> reply(String port, List<Object> results, String exception) {
         boolean isSound = Data.isData(results);
         List<Object> given = isSound ? Data.copy(results) : List.of();
         String wrong = isSound ? null : Data.inWords(results);
-        probe.record("reply", "port", action.port(), "results", given, "exception", exception, "wrong", wrong);
+        probe.record("reply", "port", port, "results", given, "exception", exception, "wrong", wrong);
+        return given;
     }
 
     private void push(Action action, PortElement reference) {

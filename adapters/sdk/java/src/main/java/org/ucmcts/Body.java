@@ -25,6 +25,14 @@ public interface Body {
      */
     Runnable getPolicyElement(String policy, String element);
 
+    /**
+     * The same, for a port element with an interface, as {@code timer_callback} of the index timers (10.3.2), whose
+     * method is {@code on_timeout}.
+     */
+    default PortElement getPolicyPort(String policy, String element) {
+        return null;
+    }
+
     /** Sets a component attribute. */
     void setAttribute(String name, String value);
 }

@@ -27,6 +27,7 @@ class Probe implements Body {
     private final Map<String, List<Action>> plan;
     private final Map<String, Port> ports = new HashMap<>();
     private final Runnable execution;
+    private final Port timerCallback;
     private final Map<String, String> attributes = Collections.synchronizedMap(new LinkedHashMap<>());
     private final Actions actions;
     final Memory memory;
@@ -44,6 +45,8 @@ class Probe implements Body {
         boolean executesItself =
                 declaration.policies().stream().anyMatch(p -> SELF_EXECUTING.contains(p.definition()));
         execution = executesItself ? this::run : null;
+        boolean hasTimers = declaration.policies().stream().anyMatch(p -> Timers.POLICY.equals(p.definition()));
+        timerCallback = hasTimers ? new Port(this, Timers.CALLBACK) : null;
     }
 
     /** The next body for {@code component}. */
@@ -178,6 +181,11 @@ class Probe implements Body {
     public Runnable getPolicyElement(String policy, String element) {
         boolean executed = policy != null && SELF_EXECUTING.contains(policy);
         return executed && SELF_EXECUTION_API.equals(element) ? execution : null;
+    }
+
+    @Override
+    public PortElement getPolicyPort(String policy, String element) {
+        return Timers.POLICY.equals(policy) && Timers.CALLBACK.equals(element) ? timerCallback : null;
     }
 
     private void run() {

@@ -1,0 +1,178 @@
+"""When an index timer may call back at the earliest and must at the latest, by the vendor's readings (10.3.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.reference_models.model.clock_reading import ClockReading
+from ucm_cts.reference_models.model.execution_policies import protection_of
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.paced_events import MILLISECOND
+from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback, TimerPhase
+
+CLOCKS = {"local": "get_local_time", "synchronized": "get_synchronized_time"}
+"""The readings of ``absolute-clock``, with the method that reads each clock."""
+
+MOST = 100
+"""So many callbacks of one timer are judged one by one: a framework may call back without end."""
+
+
+def granularity(runtime: ObservedRuntime) -> int:
+    """By how many nanoseconds something may be early."""
+    return int(runtime.ics.tolerance("timer-granularity") * MILLISECOND)
+
+
+def lateness(runtime: ObservedRuntime) -> int:
+    """By how many nanoseconds something may be late."""
+    return int(runtime.ics.tolerance("timer-lateness") * MILLISECOND)
+
+
+def earliest(runtime: ObservedRuntime, timer: Timer, number: int) -> int | None:
+    """Before when callback ``number`` of ``timer``, from 0, cannot come; None if that is not known."""
+    begun = _begun(runtime, timer)
+    if begun is None:
+        return None
+    due = begun[0] + _after(runtime, timer, number)
+    return max(due, timer.phase.of.started.t if timer.is_in_startup else 0) - granularity(runtime)
+
+
+def latest(runtime: ObservedRuntime, timer: Timer, number: int) -> int | None:
+    """Until when it must have come if nothing keeps it out; None if that is not known."""
+    begun = _begun(runtime, timer)
+    if begun is None:
+        return None
+    chained = number if runtime.ics.reading("timer-anchor") == "chained" else 0
+    due = begun[1] + _after(runtime, timer, number) + (chained + 1) * lateness(runtime)
+    end = timer.phase.of.start.end
+    return max(due, end.t + lateness(runtime)) if timer.is_in_startup and end is not None else due
+
+
+def first_after(runtime: ObservedRuntime, timer: Timer) -> int:
+    """How long after its delay the first callback of ``timer`` is due, in nanoseconds."""
+    return _after(runtime, timer, 0)
+
+
+def _after(runtime: ObservedRuntime, timer: Timer, number: int) -> int:
+    """How long after the first instant callback ``number`` is due."""
+    if timer.rate is None:
+        return 0
+    is_later = runtime.ics.reading("first-periodic-expiry") == "delay-plus-rate"
+    return (number + is_later) * timer.rate.lasts
+
+
+def _begun(runtime: ObservedRuntime, timer: Timer) -> tuple[int, int] | None:
+    """Between which moments the delay has passed; None if the call has not returned, or its date cannot be told."""
+    if timer.begun == "open":
+        timer.begun = _begin(runtime, timer)
+    return timer.begun
+
+
+def _begin(runtime: ObservedRuntime, timer: Timer) -> tuple[int, int] | None:
+    call = timer.call
+    if call.reply is None:
+        return None
+    if not timer.delay.is_absolute:
+        return call.request.t + timer.delay.lasts, call.reply.t + timer.delay.lasts
+    reading = _reading_for(runtime, timer)
+    if reading is None:
+        return None
+    remaining = timer.delay.lasts - reading.time
+    return max(reading.asked + remaining, call.request.t), max(reading.answered + remaining, call.reply.t)
+
+
+def _reading_for(runtime: ObservedRuntime, timer: Timer) -> ClockReading | None:
+    """The reading of the declared clock from which the body made the date."""
+    return read_before(timer, CLOCKS.get(runtime.ics.reading("absolute-clock"), ""))
+
+
+def read_before(timer: Timer, method: str) -> ClockReading | None:
+    """What the component read by ``method`` last before it started ``timer``."""
+    before = (r for r in timer.phase.readings.get(method, ()) if r.end < timer.call.request.n)
+    return max(before, key=lambda reading: reading.end, default=None)
+
+
+def read_in(timer: Timer, method: str, callback: TimerCallback) -> ClockReading | None:
+    """What it read by ``method`` first in ``callback``."""
+    left = callback.execution.end if callback.execution.over else callback.n
+    own = (r for r in timer.phase.readings.get(method, ()) if callback.n < r.begin < left)
+    return next(own, None)
+
+
+def free_after(runtime: ObservedRuntime, timer: Timer, due: int, before: int) -> int | None:
+    """When the component was free for a callback that was due at ``due`` and has not come until ``before``; None if it never was.
+
+    Its executions may keep the callback out, and so may other callbacks of timers, as one thread may call all of them.
+    """
+    free = due
+    for begin, end in sorted(_busy(runtime, timer.phase, before)):
+        if begin > free + lateness(runtime):
+            break
+        if end is None:
+            return None
+        free = max(free, end)
+    return free
+
+
+def _busy(runtime: ObservedRuntime, phase: TimerPhase, before: int) -> Iterator[tuple[int, int | None]]:
+    """When executions began and ended that may keep a callback out."""
+    own = runtime.executions.of(phase.member.body)
+    others = (
+        e
+        for member in runtime.bodies.values()
+        if member is not phase.member
+        for e in runtime.executions.of(member.body)
+    )
+    callbacks = (e for e in others if e.enter.port == s.TIMER_CALLBACK)
+    for execution in (*own, *callbacks):
+        if execution.enter.t < before:
+            yield execution.enter.t, execution.left if execution.over else None
+
+
+def is_kept_out(runtime: ObservedRuntime, timer: Timer, callback: TimerCallback, due: int) -> bool:
+    """Was the component, which is protected, executed when the callback was due, for longer than the declared lateness?"""
+    if protection_of(timer.phase.member.declaration) in ("", "unprotected"):
+        return False
+    late = lateness(runtime)
+    return any(
+        e.enter.t < due and e.over and due + late < e.left <= callback.t
+        for e in timer.phase.executions
+        if e is not callback.execution
+    )
+
+
+def overrun(runtime: ObservedRuntime, timer: Timer) -> int:
+    """The number of the first callback of a periodic ``timer`` that may have come at another time because something lasted too long; that
+    of its callbacks if there is none.
+    """
+    if timer.disturbed is None:
+        timer.disturbed = _overrun(runtime, timer)
+    return timer.disturbed
+
+
+def _overrun(runtime: ObservedRuntime, timer: Timer) -> int:
+    if timer.rate is None:
+        return len(timer.callbacks)
+    for number, callback in enumerate(timer.callbacks):
+        due = latest(runtime, timer, number)
+        if due is None:
+            return number
+        left = callback.execution.left if callback.execution.over else callback.t + timer.rate.lasts
+        if callback.t > due or left - callback.t >= timer.rate.lasts - lateness(runtime):
+            return number
+    return len(timer.callbacks)
+
+
+def noticed(runtime: ObservedRuntime, due: int | None) -> tuple[int, ...]:
+    """The first event after ``due`` at which something entered a body, or a step began or ended: by then a callback had not come."""
+    if due is None:
+        return ()
+    entered = ((e.enter.t, e.enter.n) for m in runtime.bodies.values() for e in runtime.executions.of(m.body))
+    steps = (event for o in runtime.interactions.operations for event in (o.begin, o.end) if event is not None)
+    known = (*entered, *((e.t, e.n) for e in (*steps, *runtime.interactions.pauses)))
+    return tuple(n for _, n in sorted(one for one in known if one[0] >= due)[:1])
+
+
+def shown(nanoseconds: float) -> str:
+    """A time as findings show it."""
+    return f"{nanoseconds / SECOND:.3f} s"

@@ -1,0 +1,252 @@
+"""Properties about when index timers call back: never early, in time, once or again and again (10.3.2)."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.index_timers import timer_phases
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerPhase
+from ucm_cts.reference_models.model.timer_times import (
+    MOST,
+    earliest,
+    free_after,
+    is_kept_out,
+    lateness,
+    latest,
+    noticed,
+    overrun,
+    shown,
+)
+from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
+from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+_EXPIRES, _EARLY, _LATE, _OWN_START = "R-10.3.2-21", "R-10.3.2-25", "R-10.3.2-26", "R-10.3.2-27"
+_ONCE, _AGAIN, _FIRST, _RATE = "R-10.3.2-29", "R-10.3.2-30", "R-10.3.2-31", "R-10.3.2-32"
+_NUMBERS, _SEVERAL, _APART = "R-10.3.2-33", "R-10.3.2-36", "R-10.3.2-37"
+_ONE_ONLY, _IN_THE_END = "R-10.3.2-39", "R-10.3.2-44"
+_ANEW = "R-10.3-04"
+_MISSING = (_ANEW, _EXPIRES, _AGAIN, _NUMBERS, _SEVERAL, _APART, _ONE_ONLY, _IN_THE_END)
+
+_ENOUGH, _AT_ONCE = 3, 3
+"""So many callbacks show that a timer repeats, and so many timers that wait at once are several."""
+
+_QUIET = 3
+"""A sporadic timer does not call back again within so many delays."""
+
+_USUAL_NUMBERS = range(1, 256)
+
+
+def _judged(runtime: ObservedRuntime) -> list[Timer]:
+    """The timers with usual times whose number is theirs alone."""
+    timers = (timer for phase in timer_phases(runtime) for timer in phase.timers)
+    return [t for t in timers if t.has_usual_times and not t.is_contested and t.is_started]
+
+
+@property_at("closed", _EARLY, _FIRST, _RATE, feature="timers", timed=True)
+def timers_never_early(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """No callback comes before its time has passed since its timer was started."""
+    for timer in _judged(runtime):
+        for number, callback in enumerate(timer.callbacks[:MOST]):
+            if timer.rate is None and number:
+                break
+            due = earliest(runtime, timer, number)
+            requirement = _EARLY if timer.rate is None else _RATE if number else _FIRST
+            if due is None or callback.t >= due:
+                yield check.kept(requirement)
+                continue
+            yield check.fail(
+                "early",
+                expected=f"timer {timer.number} of '{timer.phase.member.lane}' calls back {_asked(timer, number)}",
+                observed=f"it called back {shown(due - callback.t)} too early",
+                at=at_of(timer, *timer.callbacks[: number + 1]),
+                requirement=requirement,
+            )
+            break
+
+
+def _asked(timer: Timer, number: int) -> str:
+    if timer.rate is None:
+        return f"{timer.delay.seconds} s after it was started"
+    first = f"{timer.delay.seconds} s after it was started"
+    return f"first {first}" if not number else f"each {timer.rate.seconds} s, first {first}"
+
+
+@property_at("closed", _LATE, _FIRST, _RATE, *_MISSING, feature="timers", timed=True)
+def timers_expire_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """Each expiry calls back, within the declared lateness if nothing holds the component."""
+    come: list[Timer] = []
+    for timer in _judged(runtime):
+        if timer.is_in_startup and runtime.ics.reading("timer-in-startup") != "works" and not timer.callbacks:
+            continue
+        finding = _late(check, runtime, timer)
+        if finding is not None:
+            yield finding
+        elif timer.callbacks:
+            come.append(timer)
+    for timer in come:
+        yield from _kept(check, runtime, timer, come)
+
+
+def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | None:
+    """The first callback that came too late or not at all.
+
+    After an execution that lasted for a period, missed expiries may be caught up, left out or merged, and only the end is judged.
+    """
+    disturbed = overrun(runtime, timer)
+    for number in range(min(len(timer.callbacks) + 1, MOST)):
+        due = latest(runtime, timer, number)
+        if due is None or (number and timer.rate is None):
+            return None
+        if number > disturbed:
+            return _stops(check, runtime, timer)
+        callback = timer.callbacks[number] if number < len(timer.callbacks) else None
+        free = free_after(runtime, timer, due, callback.t if callback is not None else timer.until[1])
+        if free is None:
+            return None
+        limit = due if free == due else free + lateness(runtime)
+        if callback is None:
+            is_missing = limit < timer.until[1]
+            return _untimely(check, runtime, timer, number, None, free > due) if is_missing else None
+        if callback.t > limit:
+            return _untimely(check, runtime, timer, number, callback.t - limit, free > due)
+    return None
+
+
+def _stops(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | None:
+    """After an execution that lasted longer than a period: callbacks still come."""
+    assert timer.rate is not None
+    last = timer.callbacks[-1]
+    quiet_since = max([last.t, *(e.left if e.over else timer.until[1] for e in timer.phase.executions)])
+    if timer.until[1] - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
+        return _untimely(check, runtime, timer, len(timer.callbacks), None, True)
+    return None
+
+
+def _untimely(
+    check: Property, runtime: ObservedRuntime, timer: Timer, number: int, by: int | None, was_busy: bool
+) -> Finding:
+    if by is None:
+        requirement = _why_missing(runtime, timer, number, was_busy)
+        observed = f"callback {number + 1} did not come" if timer.rate is not None else "it did not"
+    else:
+        requirement = _LATE if timer.rate is None else _RATE if number else _FIRST
+        observed = f"it called back {shown(by)} later than timer-lateness permits"
+    busy = ", once the component is free" if was_busy else ""
+    return check.fail(
+        "never" if by is None else "late",
+        expected=f"timer {timer.number} of '{timer.phase.member.lane}' calls back {_asked(timer, number)}{busy}",
+        observed=observed,
+        at=(
+            *at_of(timer, *timer.callbacks[: number + 1]),
+            *(noticed(runtime, latest(runtime, timer, number)) if by is None else ()),
+        ),
+        requirement=requirement,
+    )
+
+
+def _why_missing(runtime: ObservedRuntime, timer: Timer, number: int, was_busy: bool) -> str:
+    """The requirement that is broken if callback ``number`` does not come: the one about what sets the timer apart."""
+    others = [
+        t for p in timer_phases(runtime) for t in p.timers if t is not timer and t.call.request.n < timer.until[0]
+    ]
+    elsewhere = [t for t in others if t.phase.member is not timer.phase.member and t.number == timer.number]
+    here = [t for t in others if t.phase is timer.phase]
+    if any(t.call.request.n > timer.call.request.n or t.cancels for t in elsewhere):
+        return _APART
+    due = latest(runtime, timer, number) or timer.until[1]
+    cancels = [t.cancelled.request for t in here if t.cancelled is not None]
+    if any(timer.call.request.n < cancel.n and cancel.t < due for cancel in cancels):
+        return _ONE_ONLY
+    if was_busy:
+        return _IN_THE_END
+    if any(t.again is timer.call for t in here):
+        return _ANEW
+    if timer.number not in _USUAL_NUMBERS:
+        return _NUMBERS
+    if number:
+        return _AGAIN
+    return _SEVERAL if here else _EXPIRES
+
+
+def _kept(check: Property, runtime: ObservedRuntime, timer: Timer, come: Sequence[Timer]) -> Conclusions:
+    """What a timer that came in time has shown."""
+    yield check.kept(_EXPIRES)
+    yield check.kept(_LATE)
+    due = earliest(runtime, timer, 0)
+    if due is not None and timer.rate is None and is_kept_out(runtime, timer, timer.callbacks[0], due):
+        yield check.kept(_IN_THE_END)
+    if timer.rate is not None:
+        yield check.kept(_FIRST)
+        if len(timer.callbacks) >= _ENOUGH:
+            yield check.kept(_AGAIN)
+            yield check.kept(_RATE)
+    at_once = [t for t in come if t.phase is timer.phase and t.call.request.n < timer.callbacks[0].n]
+    if len({t.number for t in at_once}) >= _AT_ONCE:
+        yield check.kept(_SEVERAL)
+    if timer.number not in _USUAL_NUMBERS:
+        yield check.kept(_NUMBERS)
+    if any(t.again is timer.call and t.cancels for t in timer.phase.timers):
+        yield check.kept(_ANEW)
+    if any(t.phase.member is not timer.phase.member and t.number == timer.number for t in come):
+        yield check.kept(_APART)
+    cancelled = [t.cancelled for t in timer.phase.timers if t is not timer]
+    if any(c is not None and c.reply is not None and c.request.n < timer.callbacks[-1].n for c in cancelled):
+        yield check.kept(_ONE_ONLY)
+
+
+@property_at("closed", _OWN_START, feature="timers", timed=True)
+def relative_times_count_from_start(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """Timers that are started at different moments with one relative time expire as far apart as they were started."""
+    late = lateness(runtime)
+    for phase in timer_phases(runtime):
+        timers = [t for t in _judged(runtime) if t.phase is phase and t.rate is None and t.callbacks]
+        for one, other in itertools.combinations(timers, 2):
+            apart = other.call.request.t - one.call.request.t
+            if one.delay != other.delay or apart <= 2 * late or _was_busy(phase, one) or _was_busy(phase, other):
+                continue
+            came = other.callbacks[0].t - one.callbacks[0].t
+            if abs(came - apart) <= late:
+                yield check.kept()
+                continue
+            yield check.fail(
+                "not from its start",
+                expected=f"timers {one.number} and {other.number}, both of {one.delay.seconds} s, expire as far apart as they were "
+                f"started: {shown(apart)}",
+                observed=f"they called back {shown(came)} apart",
+                at=(*at_of(one, one.callbacks[0]), *at_of(other, other.callbacks[0])),
+            )
+            break
+
+
+def _was_busy(phase: TimerPhase, timer: Timer) -> bool:
+    """Was the component executed for longer than a moment while the timer was waiting?"""
+    until = timer.callbacks[0].t
+    return any(
+        e.enter.t < until
+        and (not e.over or e.left - e.enter.t > SECOND // 20)
+        and (not e.over or e.left > timer.call.request.t)
+        for e in phase.executions
+        if e is not timer.callbacks[0].execution
+    )
+
+
+@property_at("closed", _ONCE, feature="timers", timed=True)
+def sporadic_timers_come_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A sporadic timer calls back once, and not again within three further delays."""
+    for phase in timer_phases(runtime):
+        for timer in phase.timers:
+            if timer.rate is not None or timer.is_contested or not timer.callbacks or timer.cancels:
+                continue
+            if len(timer.callbacks) > 1:
+                yield check.fail(
+                    "again",
+                    expected=f"sporadic timer {timer.number} of '{phase.member.lane}' calls back once",
+                    observed=f"it called back {len(timer.callbacks)} times",
+                    at=at_of(timer, *timer.callbacks),
+                )
+            elif timer.until[1] - timer.callbacks[0].t > _QUIET * timer.delay.lasts and not timer.delay.is_absolute:
+                yield check.kept()

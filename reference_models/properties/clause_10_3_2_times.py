@@ -1,0 +1,244 @@
+"""Properties about the times of index timers: dates, times that are unusual, missed expiries, and what callbacks tell (10.3.2)."""
+
+from __future__ import annotations
+
+from ucm_cts.reference_models.conclusions import Conclusions, takes
+from ucm_cts.reference_models.model.clock_reading import ClockReading
+from ucm_cts.reference_models.model.clock_readings import passed
+from ucm_cts.reference_models.model.index_timers import timer_phases
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.paced_events import MILLISECOND
+from ucm_cts.reference_models.model.timer_events import SECOND, TimeOut, Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.timer_times import (
+    CLOCKS,
+    MOST,
+    first_after,
+    granularity,
+    lateness,
+    latest,
+    noticed,
+    overrun,
+    read_before,
+    read_in,
+    shown,
+)
+from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
+from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+_EARLY, _DATES, _RATE, _TIME_TOLD, _FIRST = "R-10.3.2-25", "R-10.3.2-28", "R-10.3.2-32", "R-10.3.2-35", "R-10.3.2-31"
+
+
+def _clocks(runtime: ObservedRuntime) -> list[str]:
+    """The methods of the clocks that may decide on dates."""
+    declared = runtime.ics.reading("absolute-clock")
+    return [CLOCKS[declared]] if declared in CLOCKS else [*CLOCKS.values()]
+
+
+@property_at("closed", _DATES, feature="timers", timed=True)
+def absolute_times_are_dates(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A timer with an absolute time calls back when the clock has reached it, and no later than declared."""
+    for phase in timer_phases(runtime):
+        for timer in phase.timers:
+            if timer.delay.is_absolute and timer.is_started and not timer.is_contested and not timer.cancels:
+                yield from _dated(check, runtime, phase, timer)
+
+
+def _dated(check: Property, runtime: ObservedRuntime, phase: TimerPhase, timer: Timer) -> Conclusions:
+    methods = _clocks(runtime)
+    before = {m: r for m in methods if (r := read_before(timer, m)) is not None}
+    if not before or any(passed(timer.delay.lasts, r.time) >= 0 for r in before.values()):
+        return  # a date that had passed already is a matter of its own
+    date = timer.delay.lasts + first_after(runtime, timer)
+    expected = f"timer {timer.number} of '{phase.member.lane}' calls back when the clock shows {date // SECOND} s"
+    if timer.callbacks:
+        callback = timer.callbacks[0]
+        read = {m: r for m in methods if (r := read_in(timer, m, callback)) is not None}
+        if len(read) < len(methods) or any(m in before and _was_set(runtime, before[m], r) for m, r in read.items()):
+            return
+        missing = [passed(r.time, date) for r in read.values()]
+        over = [passed(date, r.time) - (r.answered - callback.t) for r in read.values()]
+        if min(missing) > granularity(runtime):
+            yield check.fail(
+                "early",
+                expected=expected,
+                observed=f"the clock showed {shown(min(missing))} less",
+                at=at_of(timer, callback),
+            )
+        elif min(over) > lateness(runtime) and not _may_be_kept_out(phase, callback):
+            yield check.fail(
+                "late",
+                expected=f"{expected}, or as much later as timer-lateness says",
+                observed=f"the clock showed {shown(min(over))} more",
+                at=at_of(timer, callback),
+            )
+        else:
+            yield check.kept()
+        return
+    remaining = max(r.answered + passed(r.time, date) for r in before.values())
+    if remaining + lateness(runtime) < timer.until[1] and all(e.over for e in phase.executions):
+        at = (*at_of(timer), *noticed(runtime, remaining))
+        yield check.fail("never", expected=expected, observed="it did not call back", at=at)
+
+
+def _was_set(runtime: ObservedRuntime, earlier: ClockReading, later: ClockReading) -> bool:
+    """Did the clock go on by another amount than the recorder's clock?"""
+    tolerance = int(runtime.ics.tolerance("clock-tolerance") * MILLISECOND) + (later.answered - earlier.asked) // 50
+    return abs(passed(earlier.time, later.time) - (later.asked - earlier.asked)) > tolerance + SECOND // 10
+
+
+def _may_be_kept_out(phase: TimerPhase, callback: TimerCallback) -> bool:
+    return any(
+        e is not callback.execution and e.enter.n < callback.n and (not e.over or callback.t - e.left < SECOND)
+        for e in phase.executions
+        if not e.over or e.left - e.enter.t > SECOND // 10
+    )
+
+
+@property_at("closed", _EARLY, _DATES, _RATE, feature="timers", timed=True)
+def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A time-out of zero, a date that has passed, and a rate with the flag of dates do what is declared."""
+    for phase in timer_phases(runtime):
+        for timer in phase.timers:
+            if timer.is_contested or timer.cancels or not timer.is_started or timer.is_in_startup:
+                continue
+            if timer.rate is not None and timer.rate.is_absolute:
+                due = latest(runtime, timer, 1)
+                value = "ignored" if timer.callbacks else "refused"
+                yield from _takes(check, runtime, timer, "absolute-rate", value, due, _RATE)
+            elif timer.delay == (0, False):
+                value = "at-once" if timer.callbacks else "ignored"
+                yield from _takes(check, runtime, timer, "zero-delay", value, latest(runtime, timer, 0), _EARLY)
+            elif timer.delay.is_absolute:
+                read = [r for m in _clocks(runtime) if (r := read_before(timer, m)) is not None]
+                if read and all(passed(timer.delay.lasts, r.time) > 0 for r in read):
+                    due = read[0].answered + lateness(runtime)
+                    value = "at-once" if timer.callbacks else "never"
+                    yield from _takes(check, runtime, timer, "past-time", value, due, _DATES)
+
+
+def _takes(
+    check: Property,
+    runtime: ObservedRuntime,
+    timer: Timer,
+    option: str,
+    value: str,
+    due: int | None,
+    requirement: str,
+) -> Conclusions:
+    """Is ``value``, which is what the timer did, permitted for ``option``? ``due`` is until when that was to be seen."""
+    if due is None or (due > timer.until[1] and not timer.callbacks):
+        return
+    if not (yield from takes(runtime, option, value)):
+        yield check.fail(
+            option,
+            expected=f"timer {timer.number} of '{timer.phase.member.lane}' behaves as declared: {option}={runtime.ics.reading(option)}",
+            observed=f"it did as under '{value}'",
+            at=at_of(timer, *timer.callbacks[:1]),
+            requirement=requirement,
+        )
+
+
+@property_at("closed", _RATE, feature="timers", timed=True)
+def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """What becomes of expiries while a callback lasts is as declared: caught up, left out, merged, or the grid begins anew."""
+    for phase in timer_phases(runtime):
+        for timer in phase.timers:
+            if timer.rate is None or not timer.has_usual_times or timer.is_contested or not timer.is_started:
+                continue
+            number = overrun(runtime, timer)
+            if number >= len(timer.callbacks) or runtime.ics.reading("timer-anchor") == "chained":
+                continue
+            fitting = _readings_of_overrun(runtime, timer, number)
+            declared = runtime.ics.reading("timer-overrun")
+            if len(fitting) == 1:
+                (value,) = fitting
+                if (yield from takes(runtime, "timer-overrun", value)):
+                    continue
+            elif not fitting or declared in (*fitting, "observed"):
+                continue
+            yield check.fail(
+                "overrun",
+                expected=f"expiries of timer {timer.number} of '{phase.member.lane}' while it is executed are treated as declared: {declared}",
+                observed=f"they were treated as under {' or '.join(sorted(fitting))}",
+                at=at_of(timer, *timer.callbacks[number : number + 3]),
+            )
+
+
+def _readings_of_overrun(runtime: ObservedRuntime, timer: Timer, number: int) -> set[str]:
+    """The readings of ``timer-overrun`` that explain what came after callback ``number``, which lasted; empty if too little is seen."""
+    held = timer.callbacks[number].execution
+    due = latest(runtime, timer, number)
+    assert timer.rate is not None
+    if not held.over or due is None:
+        return set()
+    late, rate = lateness(runtime), timer.rate.lasts
+    grid = due - late
+    missed = (held.left - grid) // rate
+    into = held.left - grid - missed * rate
+    if missed < 2 or timer.until[1] < held.left + 2 * rate or not 2 * late < into < rate - 2 * late:
+        return set()
+    after = [c.t for c in timer.callbacks[number + 1 :]]
+    at_once = sum(moment < held.left + late for moment in after)
+    if at_once >= missed:
+        return {"queued"}
+    if at_once > 1:
+        return set()
+    following = [m for m in after if m >= held.left + late]
+    if not following:
+        return set()
+    on_grid = abs(following[0] - (grid + (missed + 1) * rate)) <= late
+    return {("merged" if at_once else "skipped") if on_grid else "shifted"}
+
+
+@property_at("closed", _TIME_TOLD, feature="timers", timed=True)
+def callbacks_tell_a_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """The time that a callback tells is the one asked for, the date when it was due, or that of the call; always the same of them."""
+    for phase in timer_phases(runtime):
+        for timer in phase.timers:
+            for number, callback in enumerate(timer.callbacks[:MOST]):
+                told = callback.told
+                if told is None or timer.is_contested or not timer.is_started:
+                    continue
+                fitting = _readings_of_told(runtime, timer, number, callback, told)
+                declared = runtime.ics.reading("callback-time")
+                if len(fitting) == 1:
+                    if (yield from takes(runtime, "callback-time", *fitting)):
+                        yield check.kept()
+                        continue
+                elif fitting and declared in (*fitting, "observed"):
+                    yield check.kept()
+                    continue
+                flag = "ABSOLUTE_TIME" if told.is_absolute else "RELATIVE_TIME"
+                yield check.fail(
+                    "otherwise",
+                    expected=f"callbacks of timer {timer.number} of '{phase.member.lane}' tell a time"
+                    + (f", as declared: {declared}" if declared != "observed" else ": the one asked for, or a date"),
+                    observed=f"callback {number + 1} told {told.seconds} and {flag}",
+                    at=at_of(timer, callback),
+                )
+                return
+
+
+def _readings_of_told(
+    runtime: ObservedRuntime, timer: Timer, number: int, callback: TimerCallback, told: TimeOut
+) -> set[str]:
+    fitting = set()
+    if told == timer.delay or told == timer.rate:
+        fitting.add("requested")
+    if not told.is_absolute:
+        return fitting
+    if timer.delay.is_absolute and not number and abs(told.seconds - timer.delay.seconds) <= 1:
+        fitting.add("due")
+    read = [r for m in _clocks(runtime) if (r := read_in(timer, m, callback)) is not None]
+    if not read:
+        return {*fitting, "due", "now"}
+    expected = latest(runtime, timer, number)
+    for reading in read:
+        entered = reading.time - (reading.answered - callback.t)
+        if abs(passed(told.seconds * SECOND, entered)) <= SECOND + lateness(runtime):
+            fitting.add("now")
+        due = expected if expected is not None and number <= overrun(runtime, timer) else None
+        waited = 0 if due is None else max(0, callback.t - due + lateness(runtime))
+        if due is None or abs(passed(told.seconds * SECOND, entered - waited)) <= SECOND + lateness(runtime):
+            fitting.add("due")
+    return fitting
