@@ -53,10 +53,15 @@ IXIT: Mapping[str, Quantity] = {
         TOLERANCES["error-known-within"], "ms", "with comm-error = eventually: after this time a break is known"
     ),
     "timer-granularity": Quantity(
-        TOLERANCES["timer-granularity"], "ms", "by so much executions by offset and period (10.5) may be early", 1000
+        TOLERANCES["timer-granularity"],
+        "ms",
+        "by so much timers (10.3) and executions by offset and period (10.5) may be early",
+        1000,
     ),
     "timer-lateness": Quantity(
-        TOLERANCES["timer-lateness"], "ms", "by so much executions by offset and period (10.5) may be late"
+        TOLERANCES["timer-lateness"],
+        "ms",
+        "by so much timers (10.3) and executions by offset and period (10.5) may be late",
     ),
 }
 """Times and tolerances that a vendor may declare."""

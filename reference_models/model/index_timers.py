@@ -47,13 +47,13 @@ def _phases(runtime: ObservedRuntime, member: Member) -> list[TimerPhase]:
     found = []
     for of in phases_of(runtime, member):
         phase = TimerPhase(of, readings=readings)
-        phase.calls = [c for c in calls if of.startup.n < c.request.n < of.until]
+        phase.calls = [c for c in calls if of.startup.n < c.request.n < of.closed]
         phase.executions = [e for e in executions if of.startup.n < e.enter.n < of.closed]
         phase.callbacks = [TimerCallback(e) for e in phase.executions if is_callback(e)]
         happened = [(c.request.n, c) for c in phase.calls] + [(c.n, c) for c in phase.callbacks]
         for _, one in sorted(happened, key=lambda pair: pair[0]):
             if isinstance(one, MethodCall):
-                _take_call(phase, known, one)
+                _take_call(runtime, phase, known, one)
             else:
                 _take_callback(runtime, phase, known, one)
         found.append(phase)
@@ -66,14 +66,15 @@ def _readings(runtime: ObservedRuntime, member: Member) -> dict[str, list[ClockR
     return {m: [r for r in readings_of(runtime, m) if r.body == member.body] for m in CLOCK_METHODS}
 
 
-def _take_call(phase: TimerPhase, known: dict[int, Timer], call: MethodCall) -> None:
+def _take_call(runtime: ObservedRuntime, phase: TimerPhase, known: dict[int, Timer], call: MethodCall) -> None:
     arguments = call.request.arguments or ()
     number = arguments[0] if arguments else None
     if not isinstance(number, int):
         return
     before = known.get(number)
+    earlier = None
     if before is not None and before.phase is not phase:
-        before = None
+        before, earlier = None, before
     if call.request.method == s.CANCEL_TIMER and before is not None:
         before.cancels.append(call)
     if call.request.method not in _STARTS:
@@ -84,7 +85,10 @@ def _take_call(phase: TimerPhase, known: dict[int, Timer], call: MethodCall) -> 
     if before is not None:
         before.again = call
         if before.is_started and before.waits(call.request.n):
-            before.is_contested = timer.is_contested = True
+            before.is_contested = True
+        timer.is_contested = before.is_contested  # which one calls back from now on is open
+    elif earlier is not None and earlier.waits(call.request.n):
+        timer.is_contested = earlier.is_started and runtime.ics.permits("timers-at-stop", "resumed")
     phase.timers.append(timer)
     if timer.is_started or before is None:
         known[number] = timer

@@ -36,6 +36,16 @@ def is_outside(runtime: ObservedRuntime, member: Member, n: int) -> bool:
     return end_of_phase(runtime, member, enter) < n
 
 
+def noticed(runtime: ObservedRuntime, due: int | None) -> tuple[int, ...]:
+    """The first event after ``due`` at which something entered a body, or a step began or ended: by then a callback had not come."""
+    if due is None:
+        return ()
+    entered = ((e.enter.t, e.enter.n) for m in runtime.bodies.values() for e in runtime.executions.of(m.body))
+    steps = (event for o in runtime.interactions.operations for event in (o.begin, o.end) if event is not None)
+    known = (*entered, *((e.t, e.n) for e in (*steps, *runtime.interactions.pauses)))
+    return tuple(n for _, n in sorted(one for one in known if one[0] >= due)[:1])
+
+
 def end_of_phase(runtime: ObservedRuntime, member: Member, startup: Enter) -> int:
     """The event by which the operation returned that ended the phase; later than all if none did."""
     for operation in runtime.interactions.changes:

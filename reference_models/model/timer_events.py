@@ -149,7 +149,7 @@ class TimerPhase:
     ``timers``: those started in it, in order.
     ``callbacks``: all of them, up to the end of the operation that ended it.
     ``resumed``: those of them that belong to timers of an earlier phase.
-    ``calls``: all calls of the service.
+    ``calls``: all calls of the service, up to the end of the operation that ended it.
     ``executions``: all executions of the component in it, callbacks and others.
     ``readings``: what the component read from its clocks, by method, at any time.
     """

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.clock_reading import ClockReading
 from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import MILLISECOND
-from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.service_policies import has_timers
+from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback
 
 CLOCKS = {"local": "get_local_time", "synchronized": "get_synchronized_time"}
 """The readings of ``absolute-clock``, with the method that reads each clock."""
@@ -102,10 +102,10 @@ def read_in(timer: Timer, method: str, callback: TimerCallback) -> ClockReading 
 def free_after(runtime: ObservedRuntime, timer: Timer, due: int, before: int) -> int | None:
     """When the component was free for a callback that was due at ``due`` and has not come until ``before``; None if it never was.
 
-    Its executions may keep the callback out, and so may other callbacks of timers, as one thread may call all of them.
+    Its executions may keep the callback out, and so may those of other components with timers, as one thread may call all of them.
     """
     free = due
-    for begin, end in sorted(_busy(runtime, timer.phase, before)):
+    for begin, end in sorted(_busy(runtime, before)):
         if begin > free + lateness(runtime):
             break
         if end is None:
@@ -114,19 +114,13 @@ def free_after(runtime: ObservedRuntime, timer: Timer, due: int, before: int) ->
     return free
 
 
-def _busy(runtime: ObservedRuntime, phase: TimerPhase, before: int) -> Iterator[tuple[int, int | None]]:
-    """When executions began and ended that may keep a callback out."""
-    own = runtime.executions.of(phase.member.body)
-    others = (
-        e
-        for member in runtime.bodies.values()
-        if member is not phase.member
-        for e in runtime.executions.of(member.body)
-    )
-    callbacks = (e for e in others if e.enter.port == s.TIMER_CALLBACK)
-    for execution in (*own, *callbacks):
-        if execution.enter.t < before:
-            yield execution.enter.t, execution.left if execution.over else None
+def _busy(runtime: ObservedRuntime, before: int) -> Iterator[tuple[int, int | None]]:
+    """When executions began and ended that may keep a callback out: one thread may wait for any component that has timers."""
+    for member in runtime.bodies.values():
+        if has_timers(member.declaration):
+            for execution in runtime.executions.of(member.body):
+                if execution.enter.t < before:
+                    yield execution.enter.t, execution.left if execution.over else None
 
 
 def is_kept_out(runtime: ObservedRuntime, timer: Timer, callback: TimerCallback, due: int) -> bool:
@@ -161,16 +155,6 @@ def _overrun(runtime: ObservedRuntime, timer: Timer) -> int:
         if callback.t > due or left - callback.t >= timer.rate.lasts - lateness(runtime):
             return number
     return len(timer.callbacks)
-
-
-def noticed(runtime: ObservedRuntime, due: int | None) -> tuple[int, ...]:
-    """The first event after ``due`` at which something entered a body, or a step began or ended: by then a callback had not come."""
-    if due is None:
-        return ()
-    entered = ((e.enter.t, e.enter.n) for m in runtime.bodies.values() for e in runtime.executions.of(m.body))
-    steps = (event for o in runtime.interactions.operations for event in (o.begin, o.end) if event is not None)
-    known = (*entered, *((e.t, e.n) for e in (*steps, *runtime.interactions.pauses)))
-    return tuple(n for _, n in sorted(one for one in known if one[0] >= due)[:1])
 
 
 def shown(nanoseconds: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
@@ -10,10 +11,10 @@ from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.model.index_timers import is_callback, timer_phases
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.phases import is_outside
+from ucm_cts.reference_models.model.phases import is_outside, noticed
 from ucm_cts.reference_models.model.service_policies import has_timers
 from ucm_cts.reference_models.model.timer_events import Timer, TimerPhase
-from ucm_cts.reference_models.model.timer_times import earliest, free_after, lateness, latest, noticed
+from ucm_cts.reference_models.model.timer_times import earliest, free_after, lateness, latest
 from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -157,7 +158,8 @@ def _due_answer(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) -
         return "unknown"
     started = [t for t in timers if t.is_started]
     if not started:
-        return "open"
+        earlier = (t for p in timer_phases(runtime) if p.member is phase.member and p is not phase for t in p.timers)
+        return "unknown" if any(t.number == number for t in earlier) else "open"
     timer = started[-1]
     before = [c for c in timer.cancels if c.request.n < call.request.n]
     if not before:
@@ -196,7 +198,8 @@ def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusi
     """A timer that waits at stop does not call back while its component is stopped; afterwards it does if that is declared."""
     phases = timer_phases(runtime)
     for phase in phases:
-        waiting = [t for t in phase.timers if t.is_started and not t.is_contested and t.waits(phase.of.until)]
+        plain = [t for t in phase.timers if t.is_started and not t.is_contested and t.call.request.n < phase.of.until]
+        waiting = [t for t in plain if t.waits(phase.of.until)]
         dues = [due for t in waiting if (due := latest(runtime, t, len(t.callbacks))) is not None]
         following = [p for p in phases if p.member is phase.member and p.of.number > phase.of.number]
         paused = [p.t for p in runtime.interactions.pauses if phase.of.closed < p.n]
@@ -210,6 +213,8 @@ def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusi
 def _after_restart(
     check: Property, runtime: ObservedRuntime, phase: TimerPhase, later: TimerPhase, waiting: list[Timer]
 ) -> Conclusions:
+    touched = {(call.request.arguments or (None,))[0] for call in later.calls if call.request.method != s.IS_CANCELED}
+    waiting = [timer for timer in waiting if timer.number not in touched]
     resumed = [c for c in later.resumed if c.timer in waiting]
     dues = [due for t in waiting if (due := latest(runtime, t, len(t.callbacks))) is not None]
     is_over = any(max(due, later.of.started.t + lateness(runtime)) < later.of.ended_at for due in dues)
@@ -230,20 +235,10 @@ def _after_restart(
 def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A number is started while its timer waits: the new timer counts, the old one, both, or the call is refused; never none."""
     for phase in timer_phases(runtime):
-        started = {id(t.call): t for t in phase.timers}
-        for old in phase.timers:
-            new = started.get(id(old.again))
-            if new is None:
-                continue
-            is_pair = old.is_contested and old.rate is None and new.rate is None
-            if not is_pair or old.cancels or new.cancels or not (old.has_usual_times and new.has_usual_times):
-                continue
+        for old, new in _started_twice(runtime, phase):
             both = [c for c in phase.callbacks if c.number == old.number and c.n > old.call.request.n]
             at_new = [c for c in both if _is_at(runtime, new, c.t)]
             at_old = [c for c in both if _is_at(runtime, old, c.t)]
-            last = latest(runtime, old, 0)
-            if last is None or last > phase.of.ended_at:
-                continue
             refused = new.call.reply is not None and new.call.reply.failed
             value = (
                 "refuse"
@@ -266,6 +261,28 @@ def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 observed=f"it did as under '{value}'" if value else "it did not, for either start",
                 at=(*at_of(old, *both), *(() if value else noticed(runtime, latest(runtime, new, 0)))),
             )
+
+
+def _started_twice(runtime: ObservedRuntime, phase: TimerPhase) -> Iterator[tuple[Timer, Timer]]:
+    """Two sporadic timers, the only ones of their number, of which the second was started while the first one waited, and that both should
+    have called back, at moments that can be told apart, with nothing to keep them out.
+    """
+    by_number: dict[int, list[Timer]] = {}
+    for timer in phase.timers:
+        by_number.setdefault(timer.number, []).append(timer)
+    late = lateness(runtime)
+    if any(not e.over or e.left - e.enter.t > late for e in phase.executions):
+        return
+    for timers in by_number.values():
+        if len(timers) != 2 or not timers[0].is_contested:
+            continue
+        old, new = timers
+        dues = [latest(runtime, timer, 0) for timer in timers]
+        plain = all(t.rate is None and t.has_usual_times and not t.cancels and not t.is_in_startup for t in timers)
+        if not plain or dues[0] is None or dues[1] is None or max(dues[0], dues[1]) > phase.of.ended_at:
+            continue
+        if abs(dues[0] - dues[1]) > 2 * late:
+            yield old, new
 
 
 def _is_at(runtime: ObservedRuntime, timer: Timer, moment: int) -> bool:

@@ -9,6 +9,7 @@ from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerPhase
 from ucm_cts.reference_models.model.timer_times import (
     MOST,
@@ -17,7 +18,6 @@ from ucm_cts.reference_models.model.timer_times import (
     is_kept_out,
     lateness,
     latest,
-    noticed,
     overrun,
     shown,
 )
@@ -107,6 +107,8 @@ def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | 
         free = free_after(runtime, timer, due, callback.t if callback is not None else timer.until[1])
         if free is None:
             return None
+        if timer.rate is not None and free > due:
+            return _stops(check, runtime, timer, free)
         limit = due if free == due else free + lateness(runtime)
         if callback is None:
             is_missing = limit < timer.until[1]
@@ -116,11 +118,11 @@ def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | 
     return None
 
 
-def _stops(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | None:
-    """After an execution that lasted longer than a period: callbacks still come."""
+def _stops(check: Property, runtime: ObservedRuntime, timer: Timer, free: int = 0) -> Finding | None:
+    """After an execution that lasted for a period, or kept a callback out until ``free``: callbacks still come."""
     assert timer.rate is not None
-    last = timer.callbacks[-1]
-    quiet_since = max([last.t, *(e.left if e.over else timer.until[1] for e in timer.phase.executions)])
+    ends = (e.left if e.over else timer.until[1] for e in timer.phase.executions)
+    quiet_since = max([free, *(callback.t for callback in timer.callbacks[-1:]), *ends])
     if timer.until[1] - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
         return _untimely(check, runtime, timer, len(timer.callbacks), None, True)
     return None

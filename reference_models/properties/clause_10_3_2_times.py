@@ -8,15 +8,16 @@ from ucm_cts.reference_models.model.clock_readings import passed
 from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import MILLISECOND
+from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import SECOND, TimeOut, Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_times import (
     CLOCKS,
     MOST,
     first_after,
+    free_after,
     granularity,
     lateness,
     latest,
-    noticed,
     overrun,
     read_before,
     read_in,
@@ -126,7 +127,8 @@ def _takes(
     requirement: str,
 ) -> Conclusions:
     """Is ``value``, which is what the timer did, permitted for ``option``? ``due`` is until when that was to be seen."""
-    if due is None or (due > timer.until[1] and not timer.callbacks):
+    free = None if due is None else free_after(runtime, timer, due, timer.until[1])
+    if due is None or free is None or (free + lateness(runtime) > timer.until[1] and not timer.callbacks):
         return
     if not (yield from takes(runtime, option, value)):
         yield check.fail(

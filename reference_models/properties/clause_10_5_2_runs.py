@@ -13,6 +13,7 @@ from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import MILLISECOND, PacedExecution, PacedPhase
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, paced_phases, shown
+from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.clause_10_5_2 import of_phase
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -91,7 +92,7 @@ def runs_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if runs:
             yield check.kept(_FIRST)
         elif _latest(runtime, phase, 0) + late < phase.ended_at:
-            yield _missing(check, phase, 0, of_phase(phase, _FIRST))
+            yield _missing(check, runtime, phase, 0, of_phase(phase, _FIRST))
             continue
         for k, run in enumerate(runs[1:], 1):
             if run.t > _latest(runtime, phase, k) + late:
@@ -102,7 +103,7 @@ def runs_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
             raised = phase.member.raises("run")  # whether a run follows one that raised is not judged
             is_over = bool(runs) and runs[-1].execution.over and not raised
             if is_over and _latest(runtime, phase, len(runs)) + late < phase.ended_at:
-                yield _missing(check, phase, len(runs), of_phase(phase, _GOES_ON))
+                yield _missing(check, runtime, phase, len(runs), of_phase(phase, _GOES_ON))
             elif len(runs) > 1:
                 yield check.kept(_GOES_ON)
 
@@ -139,13 +140,13 @@ def _late(check: Property, phase: PacedPhase, run: PacedExecution, k: int, requi
     )
 
 
-def _missing(check: Property, phase: PacedPhase, k: int, requirement: str) -> Finding:
+def _missing(check: Property, runtime: ObservedRuntime, phase: PacedPhase, k: int, requirement: str) -> Finding:
     last = (phase.executions[-1].enter.n,) if phase.executions else ()
     return check.fail(
         "never",
         expected=f"'{phase.member.lane}' runs each {shown(phase.period)} as long as it is operational",
         observed=f"it ran {k} times and no more" if k else "it did not run",
-        at=(phase.begin, *last),
+        at=(phase.begin, *last, *noticed(runtime, _latest(runtime, phase, k))),
         requirement=requirement,
     )
 
