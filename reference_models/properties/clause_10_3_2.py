@@ -142,6 +142,8 @@ def timer_service_returns(check: Property, runtime: ObservedRuntime) -> Conclusi
             reply = call.reply
             if reply is None or not reply.failed or call.request.method not in _SERVICE_METHODS:
                 continue
+            if reply.n > phase.of.until:
+                continue  # the component is being stopped
             if (yield from _may_raise(runtime, phase, call)):
                 continue
             yield check.fail(

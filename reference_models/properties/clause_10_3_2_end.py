@@ -153,6 +153,13 @@ def _number_is_plain(phase: TimerPhase, number: object) -> bool:
 def _due_answer(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) -> bool | Literal["open", "unknown"]:
     """What is_canceled has to answer; ``open`` if the text leaves it to the vendor, ``unknown`` if its timer is not judged."""
     number = (call.request.arguments or (None,))[0]
+    if call.over > phase.of.until:
+        return "unknown"  # the component is being stopped
+    others = (
+        c for c in phase.calls if c.request.method != s.IS_CANCELED and (c.request.arguments or ())[:1] == (number,)
+    )
+    if any(c.request.n < call.over and c.over > call.request.n for c in others):
+        return "unknown"  # which of both came first is open
     timers = [t for t in phase.timers if t.number == number and t.call.request.n < call.request.n]
     if any(not t.has_usual_times or t.is_contested or t.call.reply is None or t.is_in_startup for t in timers):
         return "unknown"
