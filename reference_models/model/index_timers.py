@@ -77,6 +77,7 @@ def _take_call(runtime: ObservedRuntime, phase: TimerPhase, known: dict[int, Tim
         before, earlier = None, before
     if call.request.method == s.CANCEL_TIMER and before is not None:
         before.cancels.append(call)
+        before.is_contested = before.is_contested or before.call.over > call.request.n
     if call.request.method not in _STARTS:
         return
     timer = _timer(phase, call, number, arguments)
@@ -84,7 +85,8 @@ def _take_call(runtime: ObservedRuntime, phase: TimerPhase, known: dict[int, Tim
         return
     if before is not None:
         before.again = call
-        if before.is_started and before.waits(call.request.n):
+        overlaps = any(c.over > call.request.n for c in (before.call, *before.cancels))
+        if overlaps or (before.is_started and before.waits(call.request.n)):
             before.is_contested = True
         timer.is_contested = before.is_contested  # which one calls back from now on is open
     elif earlier is not None and earlier.waits(call.request.n):
