@@ -92,7 +92,7 @@ def _take_call(runtime: ObservedRuntime, phase: TimerPhase, known: dict[int, Tim
     elif earlier is not None and earlier.waits(call.request.n):
         timer.is_contested = earlier.is_started and runtime.ics.permits("timers-at-stop", "resumed")
     phase.timers.append(timer)
-    if timer.is_started or before is None:
+    if timer.is_started or (before is None and earlier is None):
         known[number] = timer
 
 

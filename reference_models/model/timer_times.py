@@ -123,6 +123,19 @@ def _busy(runtime: ObservedRuntime, before: int) -> Iterator[tuple[int, int | No
                     yield execution.enter.t, execution.left if execution.over else None
 
 
+def was_kept_out(runtime: ObservedRuntime, callback: TimerCallback, since: int = 0) -> bool:
+    """Did another execution of a component with timers, for longer than a moment, end so lately that it may have kept ``callback`` out, or, with
+    ``since``, after that?
+    """
+    for member in runtime.bodies.values():
+        for one in runtime.executions.of(member.body) if has_timers(member.declaration) else ():
+            is_other = one is not callback.execution and one.enter.n < callback.n
+            since_when = since or callback.t - SECOND
+            if is_other and (not one.over or (one.left - one.enter.t > SECOND // 20 and one.left > since_when)):
+                return True
+    return False
+
+
 def is_kept_out(runtime: ObservedRuntime, timer: Timer, callback: TimerCallback, due: int) -> bool:
     """Was the component, which is protected, executed when the callback was due, for longer than the declared lateness?"""
     if protection_of(timer.phase.member.declaration) in ("", "unprotected"):

@@ -18,7 +18,7 @@ from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, has_timers, policies_of, policy_elements
 from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback, TimerPhase, time_out_of
-from ucm_cts.reference_models.model.timer_times import granularity, lateness, shown
+from ucm_cts.reference_models.model.timer_times import earliest, granularity, lateness, shown
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _SUPPORTED, _CALLBACK, _SERVICE, _NOT_WITHOUT = "R-10.3.2-19", "R-10.3.2-20", "R-10.3.2-23", "R-10.3.2-24"
@@ -159,7 +159,7 @@ def _may_raise(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) ->
     """May the service refuse this call, by a reading that is not declared otherwise?"""
     timer = next((t for t in phase.timers if t.call is call), None)
     if timer is None:
-        return call.request.method in (s.CANCEL_TIMER, s.IS_CANCELED)
+        return not _is_known(runtime, phase, call)
     reasons = []
     if timer.is_contested or any(
         t.is_started and t.number == timer.number and t.waits(call.request.n) for t in _before(phase, timer)
@@ -175,6 +175,25 @@ def _may_raise(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) ->
         if (yield from takes(runtime, option, value)):
             return True
     return False
+
+
+def _is_known(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) -> bool:
+    """Is the call certainly about a timer that waits? Then it cannot be refused."""
+    number = (call.request.arguments or (None,))[0]
+    timers = [t for t in phase.timers if t.number == number and t.call.request.n < call.request.n]
+    if not timers or not timers[-1].is_started or not timers[-1].has_usual_times:
+        return False
+    timer = timers[-1]
+    due = earliest(runtime, timer, 0)
+    if (
+        timer.is_contested
+        or timer.is_in_startup
+        or not timer.waits(call.request.n)
+        or due is None
+        or call.reply is None
+    ):
+        return False
+    return timer.rate is not None or call.reply.t < due
 
 
 def _before(phase: TimerPhase, timer: Timer) -> list[Timer]:

@@ -41,7 +41,7 @@ def cancelled_timers_are_silent(check: Property, runtime: ObservedRuntime) -> Co
                 yield check.fail(
                     "calls back",
                     expected=f"timer {timer.number} of '{phase.member.lane}' calls back no more once it is cancelled",
-                    observed=f"it called back {len(later)} times after cancel_timer had returned",
+                    observed=f"it called back {'once' if len(later) == 1 else f'{len(later)} times'} after cancel_timer had returned",
                     at=(timer.call.request.n, cancel.reply.n, *(c.n for c in later)),
                 )
             elif _would_have_come(runtime, timer, cancel):

@@ -10,7 +10,7 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.phases import noticed
-from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerPhase
+from ucm_cts.reference_models.model.timer_events import Timer
 from ucm_cts.reference_models.model.timer_times import (
     MOST,
     earliest,
@@ -20,6 +20,7 @@ from ucm_cts.reference_models.model.timer_times import (
     latest,
     overrun,
     shown,
+    was_kept_out,
 )
 from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -69,10 +70,12 @@ def timers_never_early(check: Property, runtime: ObservedRuntime) -> Conclusions
 
 
 def _asked(timer: Timer, number: int) -> str:
-    if timer.rate is None:
-        return f"{timer.delay.seconds} s after it was started"
     first = f"{timer.delay.seconds} s after it was started"
-    return f"first {first}" if not number else f"each {timer.rate.seconds} s, first {first}"
+    if timer.delay.is_absolute:
+        first = f"when the clock shows {timer.delay.seconds} s"
+    if timer.rate is None:
+        return first
+    return f"the first time {first}" if not number else f"every {timer.rate.seconds} s, the first time {first}"
 
 
 @property_at("closed", _LATE, _FIRST, _RATE, *_MISSING, feature="timers", timed=True)
@@ -89,6 +92,15 @@ def timers_expire_in_time(check: Property, runtime: ObservedRuntime) -> Conclusi
             come.append(timer)
     for timer in come:
         yield from _kept(check, runtime, timer, come)
+    for timer in (timer for phase in timer_phases(runtime) for timer in phase.timers):
+        is_judged = timer.is_started and not timer.is_contested and not timer.has_usual_times
+        if (
+            is_judged
+            and timer.rate is not None
+            and timer.callbacks
+            and (late := _stops(check, runtime, timer, was_busy=False))
+        ):
+            yield late
 
 
 def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | None:
@@ -112,19 +124,26 @@ def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | 
         limit = due if free == due else free + lateness(runtime)
         if callback is None:
             is_missing = limit < timer.until[1]
-            return _untimely(check, runtime, timer, number, None, free > due) if is_missing else None
+            return _untimely(check, runtime, timer, number, None, _is_busy(timer, due)) if is_missing else None
         if callback.t > limit:
-            return _untimely(check, runtime, timer, number, callback.t - limit, free > due)
+            return _untimely(check, runtime, timer, number, callback.t - limit, _is_busy(timer, due))
     return None
 
 
-def _stops(check: Property, runtime: ObservedRuntime, timer: Timer, free: int = 0) -> Finding | None:
+def _is_busy(timer: Timer, due: int) -> bool:
+    """Was its component executed when it was due?"""
+    return any(e.enter.t <= due and (not e.over or e.left > due) for e in timer.phase.executions)
+
+
+def _stops(
+    check: Property, runtime: ObservedRuntime, timer: Timer, free: int = 0, was_busy: bool = True
+) -> Finding | None:
     """After an execution that lasted for a period, or kept a callback out until ``free``: callbacks still come."""
     assert timer.rate is not None
     ends = (e.left if e.over else timer.until[1] for e in timer.phase.executions)
     quiet_since = max([free, *(callback.t for callback in timer.callbacks[-1:]), *ends])
     if timer.until[1] - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
-        return _untimely(check, runtime, timer, len(timer.callbacks), None, True)
+        return _untimely(check, runtime, timer, len(timer.callbacks), None, was_busy)
     return None
 
 
@@ -193,10 +212,12 @@ def _kept(check: Property, runtime: ObservedRuntime, timer: Timer, come: Sequenc
         yield check.kept(_NUMBERS)
     if any(t.again is timer.call and t.cancels for t in timer.phase.timers):
         yield check.kept(_ANEW)
-    if any(t.phase.member is not timer.phase.member and t.number == timer.number for t in come):
+    span = timer.call.request.n, timer.callbacks[-1].n
+    elsewhere = [t for t in come if t.phase.member is not timer.phase.member and t.number == timer.number]
+    if any(t.call.request.n < span[1] and span[0] < t.callbacks[-1].n for t in elsewhere):
         yield check.kept(_APART)
-    cancelled = [t.cancelled for t in timer.phase.timers if t is not timer]
-    if any(c is not None and c.reply is not None and c.request.n < timer.callbacks[-1].n for c in cancelled):
+    cancels = [t.cancelled for t in timer.phase.timers if t.number != timer.number]
+    if any(c is not None and c.reply is not None and span[0] < c.request.n < span[1] for c in cancels):
         yield check.kept(_ONE_ONLY)
 
 
@@ -208,7 +229,8 @@ def relative_times_count_from_start(check: Property, runtime: ObservedRuntime) -
         timers = [t for t in _judged(runtime) if t.phase is phase and t.rate is None and t.callbacks]
         for one, other in itertools.combinations(timers, 2):
             apart = other.call.request.t - one.call.request.t
-            if one.delay != other.delay or apart <= 2 * late or _was_busy(phase, one) or _was_busy(phase, other):
+            busy = any(was_kept_out(runtime, t.callbacks[0], t.call.request.t) for t in (one, other))
+            if one.delay != other.delay or apart <= 2 * late or busy:
                 continue
             came = other.callbacks[0].t - one.callbacks[0].t
             if abs(came - apart) <= late:
@@ -222,18 +244,6 @@ def relative_times_count_from_start(check: Property, runtime: ObservedRuntime) -
                 at=(*at_of(one, one.callbacks[0]), *at_of(other, other.callbacks[0])),
             )
             break
-
-
-def _was_busy(phase: TimerPhase, timer: Timer) -> bool:
-    """Was the component executed for longer than a moment while the timer was waiting?"""
-    until = timer.callbacks[0].t
-    return any(
-        e.enter.t < until
-        and (not e.over or e.left - e.enter.t > SECOND // 20)
-        and (not e.over or e.left > timer.call.request.t)
-        for e in phase.executions
-        if e is not timer.callbacks[0].execution
-    )
 
 
 @property_at("closed", _ONCE, feature="timers", timed=True)

@@ -22,11 +22,13 @@ from ucm_cts.reference_models.model.timer_times import (
     read_before,
     read_in,
     shown,
+    was_kept_out,
 )
 from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _EARLY, _DATES, _RATE, _TIME_TOLD, _FIRST = "R-10.3.2-25", "R-10.3.2-28", "R-10.3.2-32", "R-10.3.2-35", "R-10.3.2-31"
+_LATE, _PHASES = "R-10.3.2-26", "R-10.3.2-42"
 
 
 def _clocks(runtime: ObservedRuntime) -> list[str]:
@@ -65,7 +67,7 @@ def _dated(check: Property, runtime: ObservedRuntime, phase: TimerPhase, timer: 
                 observed=f"the clock showed {shown(min(missing))} less",
                 at=at_of(timer, callback),
             )
-        elif min(over) > lateness(runtime) and not _may_be_kept_out(phase, callback):
+        elif min(over) > lateness(runtime) and not was_kept_out(runtime, callback):
             yield check.fail(
                 "late",
                 expected=f"{expected}, or as much later as timer-lateness says",
@@ -75,6 +77,8 @@ def _dated(check: Property, runtime: ObservedRuntime, phase: TimerPhase, timer: 
         else:
             yield check.kept()
         return
+    if len(before) < len(methods):
+        return  # it may be a date of the clock that was not read
     remaining = max(r.answered + passed(r.time, date) for r in before.values())
     if remaining + lateness(runtime) < timer.until[1] and all(e.over for e in phase.executions):
         at = (*at_of(timer), *noticed(runtime, remaining))
@@ -87,34 +91,49 @@ def _was_set(runtime: ObservedRuntime, earlier: ClockReading, later: ClockReadin
     return abs(passed(earlier.time, later.time) - (later.asked - earlier.asked)) > tolerance + SECOND // 10
 
 
-def _may_be_kept_out(phase: TimerPhase, callback: TimerCallback) -> bool:
-    return any(
-        e is not callback.execution and e.enter.n < callback.n and (not e.over or callback.t - e.left < SECOND)
-        for e in phase.executions
-        if not e.over or e.left - e.enter.t > SECOND // 10
-    )
-
-
-@property_at("closed", _EARLY, _DATES, _RATE, feature="timers", timed=True)
+@property_at("closed", _EARLY, _DATES, _RATE, _LATE, _PHASES, feature="timers", timed=True)
 def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """A time-out of zero, a date that has passed, and a rate with the flag of dates do what is declared."""
+    """A time-out of zero, a date that has passed, a rate with the flag of dates, and a timer that is set in on_startup do what is declared."""
     for phase in timer_phases(runtime):
         for timer in phase.timers:
-            if timer.is_contested or timer.cancels or not timer.is_started or timer.is_in_startup:
+            if timer.is_contested or timer.cancels or not timer.is_started:
                 continue
-            if timer.rate is not None and timer.rate.is_absolute:
-                due = latest(runtime, timer, 1)
+            due = latest(runtime, timer, 0)
+            if timer.is_in_startup:
+                if timer.has_usual_times:
+                    value = "works" if timer.callbacks else "ignored"
+                    yield from _takes(check, runtime, timer, "timer-in-startup", value, due, _PHASES)
+            elif timer.rate is not None and timer.rate.is_absolute:
                 value = "ignored" if timer.callbacks else "refused"
-                yield from _takes(check, runtime, timer, "absolute-rate", value, due, _RATE)
+                yield from _takes(check, runtime, timer, "absolute-rate", value, latest(runtime, timer, 1), _RATE)
             elif timer.delay == (0, False):
                 value = "at-once" if timer.callbacks else "ignored"
-                yield from _takes(check, runtime, timer, "zero-delay", value, latest(runtime, timer, 0), _EARLY)
+                yield from _takes(check, runtime, timer, "zero-delay", value, due, _EARLY)
+                yield from _at_once(check, runtime, timer, due)
             elif timer.delay.is_absolute:
                 read = [r for m in _clocks(runtime) if (r := read_before(timer, m)) is not None]
-                if read and all(passed(timer.delay.lasts, r.time) > 0 for r in read):
-                    due = read[0].answered + lateness(runtime)
+                if len(read) == len(_clocks(runtime)) and all(passed(timer.delay.lasts, r.time) > 0 for r in read):
+                    over = timer.call.reply.t + lateness(runtime) if timer.call.reply is not None else None
                     value = "at-once" if timer.callbacks else "never"
-                    yield from _takes(check, runtime, timer, "past-time", value, due, _DATES)
+                    yield from _takes(check, runtime, timer, "past-time", value, over, _DATES)
+                    yield from _at_once(check, runtime, timer, over)
+
+
+def _at_once(check: Property, runtime: ObservedRuntime, timer: Timer, due: int | None) -> Conclusions:
+    """A sporadic timer that was due when it was started, and calls back, does so within the lateness."""
+    if due is None or not timer.callbacks or timer.rate is not None:
+        return
+    callback = timer.callbacks[0]
+    free = free_after(runtime, timer, due, callback.t)
+    limit = due if free in (None, due) else (free or 0) + lateness(runtime)
+    if free is not None and callback.t > limit:
+        yield check.fail(
+            "late",
+            expected=f"timer {timer.number} of '{timer.phase.member.lane}', which is due when it is started, calls back at once",
+            observed=f"it called back {shown(callback.t - limit)} later than timer-lateness permits",
+            at=at_of(timer, callback),
+            requirement=_LATE,
+        )
 
 
 def _takes(
@@ -180,12 +199,13 @@ def _readings_of_overrun(runtime: ObservedRuntime, timer: Timer, number: int) ->
     if missed < 2 or timer.until[1] < held.left + 2 * rate or not 2 * late < into < rate - 2 * late:
         return set()
     after = [c.t for c in timer.callbacks[number + 1 :]]
-    at_once = sum(moment < held.left + late for moment in after)
+    window = min(missed * late, rate - into - late)  # one by one, each within the lateness
+    at_once = sum(moment < held.left + window for moment in after)
     if at_once >= missed:
         return {"queued"}
     if at_once > 1:
         return set()
-    following = [m for m in after if m >= held.left + late]
+    following = [m for m in after if m >= held.left + window]
     if not following:
         return set()
     on_grid = abs(following[0] - (grid + (missed + 1) * rate)) <= late

@@ -34,7 +34,7 @@ _PASSIVE, _UNPROTECTED = Policy(s.PROTECTED_PASSIVE), Policy(s.UNPROTECTED_PASSI
 _LARGE = (0, 300, s.LARGEST_NUMBER)
 """Numbers that not every type of numbers has."""
 
-_DOZENS = 40
+_DOZENS = 100
 
 
 def index_timer_purposes() -> list[TestPurpose]:
@@ -109,6 +109,8 @@ def _several() -> TestPurpose:
     others = {name: timed(sporadic(5, 1), periodic(6, 1, 1)) for name in ("second", "third")}
     steps = (tell(1, "many"), tell(1, "second"), tell(1, "third"), after(2.1))
     cases.append(("dozens", together({"many": timed(*many), **others}, *steps)))
+    long = tuple(sporadic(number, seconds, 1) for number, seconds in enumerate((257, 65537, 4295, 4294968), 1))
+    cases.append(("long times", alone(timed(*long), tell(1), after(2))))
     used = (tell(1), s.Pause(500), tell(2), after(2.6))
     cases.append(("a number in use", alone(timed(sporadic(5, 3, 1), sporadic(6, 2, 1), sporadic(5, 1, 2)), *used)))
     return purposes_about("several", "21 26 33 34 36", *cases)
@@ -118,7 +120,7 @@ def _periodic() -> TestPurpose:
     """Delays and rates that differ, until somebody cancels."""
     orders = (periodic(1, 2, 1, 1), periodic(2, 1, 2, 1), cancel(1, 2))
     cases = [("two rates", alone(timed(*orders), tell(1), after(5.1), tell(2), after(1.7)))]
-    cases.append(("one second", alone(timed(periodic(300, 1, 1, 1)), tell(1), after(4.1))))
+    cases.append(("one second", alone(timed(periodic(300, 1, 1, 1)), tell(1), after(6.1))))
     own = (tell(1), after(3))
     cases.append(("cancelled in its callback", alone(timed(periodic(1, 1, 1, 1), on_timeout=(cancel_own(),)), *own)))
     return purposes_about("periodic", "30 31 32 36 38 39", *cases)
@@ -133,12 +135,25 @@ def _cancel() -> TestPurpose:
     steps = (tell(1), tell(3), tell(2), tell(3), s.Pause(100), tell(1), tell(3), after(2), tell(2), tell(3), after(1))
     cases.append(("asked before and after", alone(timed(*orders), *steps)))
     expired = (tell(1), tell(3), after(1), tell(3), tell(2), tell(3), tell(1), tell(3), after(1))
-    late = timed(sporadic(5, 1, 1), cancel(5, 2), is_canceled(5, 3), is_canceled(77, 3))
-    cases.append(("too late", alone(late, *expired)))
+    over = timed(sporadic(5, 1, 1), cancel(5, 2), is_canceled(5, 3), is_canceled(77, 3))
+    cases.append(("too late", alone(over, *expired)))
     at_last = (tell(1), s.Pause(900), tell(2), after(1.2))
     cases.append(("just before it is due", alone(timed(sporadic(1, 1, 1), cancel(1, 2)), *at_last)))
-    unknown = timed(cancel(9, 1), sporadic(1, 1, 1))
-    cases.append(("a number that nobody started", alone(unknown, tell(1), after(1))))
+    unknown = timed(sporadic(1, 1, 1), periodic(2, 1, 1, 1), cancel(9, 2), cancel(0, 2), cancel(1, 3))
+    others = (tell(1), s.Pause(200), tell(2), after(1), tell(3), after(1))
+    cases.append(("numbers that nobody started", alone(unknown, *others)))
+    twice = timed(sporadic(1, 1, 1), sporadic(2, 1, 1), cancel(2, 2), is_canceled(2, 3))
+    cases.append(("twice", alone(twice, *map(tell, (1, 2, 3, 3, 2)), after(1))))
+    anew = timed(periodic(6, 1, 1, 1), cancel(6, 2), periodic(6, 1, 2, 3), sporadic(6, 1, 5))
+    cases.append(
+        ("started anew", alone(anew, tell(1), after(1), tell(2), tell(3), after(3), tell(2), tell(5), after(2)))
+    )
+    held = timed(sporadic(5, 1, 1), s.HoldAtGate(_INSIDE), cancel(5, 1), policies=(_PASSIVE, TIMERS))
+    late = (
+        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE)),
+        *(s.Join("holder"), after(0.2)),
+    )
+    cases.append(("of one that waits for its component", alone(held, *late)))
     return purposes_about("cancel", "22 38 39 40 .04", *cases)
 
 
@@ -156,7 +171,20 @@ def _instances() -> TestPurpose:
         *(s.Stop("below"), after(1.1), tell(2), after(1), s.Stop()),
     )
     cases.append(("another container stops", s.Scenario({"timed": same}, below, 4000)))
-    return purposes_about("instances", "21 22 37 42", *cases)
+    outer = (
+        *(s.AddComponent("timed"), s.GetPortElement("timed", PORT, "tell"), s.CreateContainer("below")),
+        *(
+            s.AddComponent("timed", "below", bind="second"),
+            s.Start(),
+            tell(1),
+            s.Pause(300),
+            s.Start("below"),
+            after(1),
+        ),
+        *(s.Stop("below"), s.RemoveContainer("below"), after(2), s.Stop()),
+    )
+    cases.append(("another container comes and goes", s.Scenario({"timed": same}, outer, 4000)))
+    return purposes_about("instances", "21 22 30 37 42", *cases)
 
 
 def _phases() -> TestPurpose:
@@ -175,6 +203,11 @@ def _phases() -> TestPurpose:
         *(s.Start("inner"), tell(1), s.Pause(300), s.RemoveContainer("inner"), after(1.7)),
     )
     cases.append(("removal of the container", s.Scenario({"timed": body}, inner, 4000)))
+    cancelled = timed(sporadic(1, 1, 1), periodic(2, 1, 1, 1), cancel(1, 2), cancel(2, 2), is_canceled(1, 3))
+    again = (tell(1), tell(2), s.Stop(), s.Start(), s.Pause(1500), tell(1), tell(3), after(1))
+    cases.append(("restart after a cancel", alone(cancelled, *again)))
+    successor = (s.AddComponent("timed", bind="next"), s.Start(), after(1.2))
+    cases.append(("another instance follows", alone(body, *pending, s.RemoveComponent("timed"), *successor)))
     running = (tell(1), after(1.6), s.Stop(), after(1.2), s.Start(), tell(1), after(1))
     cases.append(("stop of one that repeats", alone(body, *running)))
     return purposes_about("phases", "30 42", *cases)
@@ -184,6 +217,8 @@ def _startup() -> TestPurpose:
     """Timers are set in on_startup, which may last longer than they do."""
     setting = {"on_startup": (sporadic(7, 1),)}
     cases = [("returns at once", alone(timed(plan=setting), after(1)))]  # type: ignore[arg-type]
+    ended = timed(plan={"on_startup": (sporadic(7, 1), cancel(7))})
+    cases.append(("cancels", alone(ended, after(1))))
     lasting = timed(plan={"on_startup": (sporadic(7, 1), s.HoldAtGate(_INSIDE))})
     steps = (
         *(s.AddComponent("timed"), s.Start(thread="starter"), s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE)),
@@ -214,6 +249,10 @@ def _protection() -> TestPurpose:
             s.Join("caller"),
         )
         cases.append((f"a call during a callback, {policy.definition}, {port}", alone(calling, *steps)))
+    held = timed(sporadic(5, 1, 1), policies=(_PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(_INSIDE),))
+    both = {"held": held, "other": timed(sporadic(5, 2, 1), sporadic(6, 4, 1))}
+    steps = (tell(1, "held"), tell(1, "other"), s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE), after(1.6))
+    cases.append(("during a callback of another component", together(both, *steps)))
     two = timed(sporadic(1, 1, 1), sporadic(2, 2, 1), policies=(_PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(_INSIDE),))
     steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(1600), s.OpenGate(_INSIDE), after(0))
     cases.append(("during another callback", alone(two, *steps)))
@@ -230,9 +269,9 @@ def _missed() -> TestPurpose:
 def _unusual() -> TestPurpose:
     """Delays of zero, and a rate with the flag of dates."""
     cases = [("no delay", alone(timed(sporadic(5, 0, 1), sporadic(6, 1, 1)), tell(1), after(1)))]
-    cases.append(("no delay, and a rate", alone(timed(periodic(5, 0, 1, 1)), tell(1), after(1.1))))
+    cases.append(("no delay, and a rate", alone(timed(periodic(5, 0, 1, 1)), tell(1), after(2.2))))
     rate = CallMethod(SERVICE, s.START_PERIODIC, (5, relative(1), [1, s.ABSOLUTE_TIME]), given=1)
-    cases.append(("a rate that is a date", alone(timed(rate, sporadic(6, 1, 1)), tell(1), after(2.2))))
+    cases.append(("a rate that is a date", alone(timed(rate, sporadic(6, 1, 1)), tell(1), after(3.2))))
     return purposes_about("unusual times", "25 32", *cases)
 
 
@@ -240,14 +279,24 @@ def _dates() -> list[TestPurpose]:
     """Dates that come, that have passed, and that are far away; by the clock that the vendor declares."""
     found = []
     for declared, clock in (("observed|local", "get_local_time"), ("synchronized", SYNCHRONIZED)):
-        orders = (dated(5, 2, 1, clock), dated(6, 3600, 1, clock), dated(7, 3, 2, clock), dated(8, -10, 3, clock))
+        orders = (
+            *READ_CLOCKS,
+            dated(5, 2, 1, clock),
+            dated(6, 3600, 1, clock),
+            dated(7, 3, 2, clock),
+            dated(8, -10, 3, clock),
+        )
         body = timed(*orders, policies=WITH_CLOCK, on_timeout=READ_CLOCKS)
         ask = s.Pause(1)  # shows the calendar clock before and after, so that a clock that was set is noticed
         cases = [("two dates", alone(body, ask, tell(1), s.Pause(600), tell(2), after(3.1), ask))]
         cases.append(("a date that has passed", alone(body, ask, tell(3), after(0.2), ask)))
-        again = timed(dated(5, 2, 1, clock, rate=1), policies=WITH_CLOCK, on_timeout=READ_CLOCKS)
-        cases.append(("a periodic timer", alone(again, ask, tell(1), after(3.1), ask)))
-        found.append(purposes_about(f"dates of {clock}", "28", *cases, under=f"absolute-clock={declared}"))
+        again = timed(*READ_CLOCKS, dated(5, 2, 1, clock, rate=1), policies=WITH_CLOCK, on_timeout=READ_CLOCKS)
+        cases.append(("a periodic timer", alone(again, ask, tell(1), after(4.2), ask)))
+        ended = timed(
+            dated(5, 2, 1, clock), dated(6, 1, 1, clock, rate=1), cancel(5, 2), cancel(6, 2), policies=WITH_CLOCK
+        )
+        cases.append(("cancelled", alone(ended, tell(1), after(1), tell(2), after(2))))
+        found.append(purposes_about(f"dates of {clock}", "28 38", *cases, under=f"absolute-clock={declared}"))
     return found
 
 
@@ -273,6 +322,8 @@ def _in_callbacks() -> TestPurpose:
     """Timers are started and cancelled inside callbacks."""
     chain = timed(sporadic(1, 1, 1), on_timeout=(sporadic(50, 1),))
     cases = [("one starts the next", alone(chain, tell(1), after(3)))]
+    anew = timed(periodic(1, 1, 1, 1), on_timeout=(cancel_own(), periodic(1, 2, 2)))
+    cases.append(("one starts itself anew", alone(anew, tell(1), after(3))))
     other = timed(sporadic(1, 1, 1), periodic(2, 2, 1, 1), on_timeout=(cancel(2), is_canceled(2)))
     cases.append(("one cancels another", alone(other, tell(1), after(2.5))))
     return purposes_about("in callbacks", "22 38 40 41", *cases)

@@ -386,3 +386,39 @@ class refuses_timers_in_startup(Timers):
         if not self._is_serving:
             raise UcmError("not operational")
         super()._start(timer)
+
+
+@breaks("R-10.3.2-39", clauses=TIMED, also=(*_MISSING, "R-10.3.2-40"))
+class cancels_the_last_for_unknown_numbers(Timers):
+    """cancel_timer of a number that nobody started cancels the timer that was started last."""
+
+    def cancel_timer(self, number: int) -> None:
+        super().cancel_timer(number if number in self._waiting or not self._waiting else list(self._waiting)[-1])
+
+
+@breaks("R-10.3.2-40", clauses=TIMED)
+class forgets_cancels_that_were_asked_for(Timers):
+    """is_canceled gives true once."""
+
+    def is_canceled(self, number: int) -> bool:
+        answer = super().is_canceled(number)
+        self._cancelled.discard(number)
+        return answer
+
+
+@alters("_new_timers", "R-10.3.2-40", clauses=TIMED)
+def keeps_cancels_over_restarts(_self: Base, timers: Timers, member: Member) -> Timers:
+    """is_canceled of a number stays true in the next phase, also when the number is started anew."""
+    kept = member.__dict__.setdefault("cancelled", set())
+    timers._cancelled = kept
+    start = timers._start
+
+    def keeping(timer: Timer) -> None:
+        before = timer.number in member.__dict__.get("former", ())
+        start(timer)
+        if before:
+            kept.add(timer.number)
+
+    timers._start = keeping  # type: ignore[method-assign]
+    member.__dict__["former"] = set(kept)
+    return timers

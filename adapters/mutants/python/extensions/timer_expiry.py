@@ -353,3 +353,27 @@ class loses_a_number_in_use(Timers):
     def _start(self, timer: Timer) -> None:
         if self._waiting.pop(timer.number, None) is None:
             super()._start(timer)
+
+
+@breaks("R-10.3.2-26", clauses=TIMED, also=_LATE)
+class serves_no_delay_late(Timers):
+    """A sporadic timer with a delay of zero calls back half a second later."""
+
+    def _due(self, time_out: Sequence[Any]) -> float:
+        return super()._due(time_out) + (0.5 if list(time_out) == [0, s.RELATIVE_TIME] else 0.0)
+
+
+@breaks("R-10.3.2-30", clauses=TIMED, also=(*_MISSING, "R-10.3.2-32"))
+class does_not_repeat_dates(Timers):
+    """A periodic timer that begins at a date calls back once."""
+
+    def start_periodic_scheduler(self, number: int, delay: Sequence[Any], rate: Sequence[Any]) -> None:
+        if delay[1] == s.ABSOLUTE_TIME:
+            self._start(Timer(number, self._due(delay), None, list(delay)))
+        else:
+            super().start_periodic_scheduler(number, delay, rate)
+
+
+@breaks("R-10.3.2-42", clauses=TIMED, readings={"timer-in-startup": "ignored"})
+class serves_timers_of_startup_that_it_declares_ignored(Base):
+    """A timer that is set in on_startup calls back, although it is declared to have no effect."""

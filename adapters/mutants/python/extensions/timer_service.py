@@ -357,3 +357,55 @@ class tells_seconds_alone(_Tells):
 
     def _arguments(self, told: list[Datum], number: int) -> Sequence[Datum]:
         return [told[0], number]
+
+
+class _RaisesAfterwards(Timers):
+    """``method`` does its work and raises."""
+
+    method = ""
+
+    def __getattribute__(self, name: str) -> Any:
+        own = super().__getattribute__(name)
+        if name != type(self).method:
+            return own
+
+        def raising(*arguments: Any) -> Any:
+            own(*arguments)
+            raise UcmError("refused")
+
+        return raising
+
+
+family(
+    _RaisesAfterwards,
+    "method",
+    {
+        "cancels_and_raises": Row("R-10.3.2-23", "cancel_timer cancels and raises.", s.CANCEL_TIMER, also=_ALL),
+        "cannot_be_asked": Row("R-10.3.2-23", "is_canceled raises.", s.IS_CANCELED, also=_ALL),
+    },
+    TIMED,
+)
+
+
+class _Wraps(Timers):
+    """A relative time is taken modulo ``most`` seconds."""
+
+    most = 0.0
+
+    def _due(self, time_out: Sequence[Any]) -> float:
+        due = super()._due(time_out)
+        if time_out[1] == s.ABSOLUTE_TIME:
+            return due
+        return due - float(time_out[0]) + float(time_out[0]) % self.most
+
+
+family(
+    _Wraps,
+    "most",
+    {
+        "has_seconds_of_sixteen_bits": Row("R-10.3.2-25", "Seconds have 16 bits.", 2.0**16),
+        "has_milliseconds_of_32_bits": Row("R-10.3.2-25", "Milliseconds have 32 bits.", 2.0**32 / 1000),
+        "has_microseconds_of_32_bits": Row("R-10.3.2-25", "Microseconds have 32 bits.", 2.0**32 / 1_000_000),
+    },
+    TIMED,
+)
