@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ucm_cts.reference_models.model.clock_reading import ClockReading
 from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.paced_events import MILLISECOND
+from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.service_policies import has_timers
 from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback
 
@@ -16,16 +16,6 @@ CLOCKS = {"local": "get_local_time", "synchronized": "get_synchronized_time"}
 
 MOST = 100
 """So many callbacks of one timer are judged one by one: a framework may call back without end."""
-
-
-def granularity(runtime: ObservedRuntime) -> int:
-    """By how many nanoseconds something may be early."""
-    return int(runtime.ics.tolerance("timer-granularity") * MILLISECOND)
-
-
-def lateness(runtime: ObservedRuntime) -> int:
-    """By how many nanoseconds something may be late."""
-    return int(runtime.ics.tolerance("timer-lateness") * MILLISECOND)
 
 
 def earliest(runtime: ObservedRuntime, timer: Timer, number: int) -> int | None:

@@ -15,10 +15,11 @@ from ucm_cts.reference_models.model.index_timers import is_callback, service_cal
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
+from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, has_timers, policies_of, policy_elements
 from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback, TimerPhase, time_out_of
-from ucm_cts.reference_models.model.timer_times import earliest, granularity, lateness, shown
+from ucm_cts.reference_models.model.timer_times import earliest, shown
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _SUPPORTED, _CALLBACK, _SERVICE, _NOT_WITHOUT = "R-10.3.2-19", "R-10.3.2-20", "R-10.3.2-23", "R-10.3.2-24"

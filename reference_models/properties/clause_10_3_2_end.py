@@ -11,10 +11,11 @@ from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.model.index_timers import is_callback, timer_phases
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.paced_phases import lateness
 from ucm_cts.reference_models.model.phases import is_outside, noticed
 from ucm_cts.reference_models.model.service_policies import has_timers
 from ucm_cts.reference_models.model.timer_events import Timer, TimerPhase
-from ucm_cts.reference_models.model.timer_times import earliest, free_after, lateness, latest
+from ucm_cts.reference_models.model.timer_times import earliest, free_after, latest
 from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 

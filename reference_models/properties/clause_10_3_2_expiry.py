@@ -9,6 +9,7 @@ from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.paced_phases import lateness
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import Timer
 from ucm_cts.reference_models.model.timer_times import (
@@ -16,7 +17,6 @@ from ucm_cts.reference_models.model.timer_times import (
     earliest,
     free_after,
     is_kept_out,
-    lateness,
     latest,
     overrun,
     shown,

@@ -8,6 +8,7 @@ from ucm_cts.reference_models.model.clock_readings import passed
 from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import MILLISECOND
+from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import SECOND, TimeOut, Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_times import (
@@ -15,8 +16,6 @@ from ucm_cts.reference_models.model.timer_times import (
     MOST,
     first_after,
     free_after,
-    granularity,
-    lateness,
     latest,
     overrun,
     read_before,

@@ -29,6 +29,18 @@ PACED = ("10.5",)
 TIMED = ("10.3",)
 CORE = ("10.1.1", "10.1.2", "10.1.4", "10.1.5", "10.1.6")
 
+MISSING_CALLBACKS = (
+    "R-10.3.2-21",
+    "R-10.3.2-30",
+    "R-10.3.2-33",
+    "R-10.3.2-36",
+    "R-10.3.2-37",
+    "R-10.3.2-39",
+    "R-10.3.2-44",
+    "R-10.3-04",
+)
+"""What a callback of a timer that does not come breaks, by what sets its timer apart."""
+
 
 @dataclass(frozen=True)
 class Mutant:

@@ -9,20 +9,10 @@ from contextlib import suppress
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.mutants.python.methods import alters
-from ucm_cts.adapters.mutants.python.registry import TIMED, Base, breaks
+from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.timers import Timer
 
-_MISSING = (
-    "R-10.3.2-21",
-    "R-10.3.2-30",
-    "R-10.3.2-33",
-    "R-10.3.2-36",
-    "R-10.3.2-37",
-    "R-10.3.2-39",
-    "R-10.3.2-44",
-    "R-10.3-04",
-)
 _INSIDE = ("R-10.3.2-43", "R-10.3.2-44", "R-10.3.2-26")
 
 
@@ -79,7 +69,7 @@ class protects_callbacks_from_no_calls(Base):
         work()
 
 
-@breaks("R-10.3.2-44", clauses=TIMED, also=(*_MISSING, "R-10.3.2-43", "R-10.3.2-35"))
+@breaks("R-10.3.2-44", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-43", "R-10.3.2-35"))
 class loses_callbacks_of_busy_components(Base):
     """A timer that expires while its protected component is executed does not call back."""
 

@@ -8,20 +8,10 @@ from collections.abc import Callable
 
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.methods import alters
-from ucm_cts.adapters.mutants.python.registry import TIMED, Base, breaks
+from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.timers import Timer, Timers
 
-_MISSING = (
-    "R-10.3.2-21",
-    "R-10.3.2-30",
-    "R-10.3.2-33",
-    "R-10.3.2-36",
-    "R-10.3.2-37",
-    "R-10.3.2-39",
-    "R-10.3.2-44",
-    "R-10.3-04",
-)
 _SILENT = (
     "R-10.3.2-38",
     "R-10.3.2-40",
@@ -112,7 +102,7 @@ class does_not_cancel_in_callbacks(Timers):
             super().cancel_timer(number)
 
 
-@breaks("R-10.3.2-39", clauses=TIMED, also=_MISSING)
+@breaks("R-10.3.2-39", clauses=TIMED, also=MISSING_CALLBACKS)
 class cancels_all(Timers):
     """cancel_timer cancels all timers of the component."""
 
@@ -121,7 +111,7 @@ class cancels_all(Timers):
             super().cancel_timer(known)
 
 
-@breaks("R-10.3.2-39", clauses=TIMED, also=(*_MISSING, "R-10.3.2-38", "R-10.3.2-40"))
+@breaks("R-10.3.2-39", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-38", "R-10.3.2-40"))
 class cancels_what_is_due_next(Timers):
     """cancel_timer also cancels the timer that is due next."""
 
@@ -131,7 +121,7 @@ class cancels_what_is_due_next(Timers):
             self._waiting.pop(min(self._waiting.values(), key=lambda timer: timer.due).number)
 
 
-@breaks("R-10.3.2-37", clauses=TIMED, also=(*_MISSING, *_SILENT))
+@breaks("R-10.3.2-37", clauses=TIMED, also=(*MISSING_CALLBACKS, *_SILENT))
 class cancels_in_all_components(Base):
     """cancel_timer cancels the timers of that number in all components."""
 
@@ -150,7 +140,7 @@ class cancels_in_all_components(Base):
         return timers
 
 
-@breaks("R-10.3.2-37", clauses=TIMED, also=(*_MISSING, *_SILENT, "R-10.3.2-32", "R-10.3.2-31"))
+@breaks("R-10.3.2-37", clauses=TIMED, also=(*MISSING_CALLBACKS, *_SILENT, "R-10.3.2-32", "R-10.3.2-31"))
 class shares_numbers(Base):
     """A number that a component starts ends the timer of that number of another component."""
 
@@ -193,7 +183,7 @@ class calls_back_all_instances(Base):
             _enter(self, other, timer)
 
 
-@breaks("R-10.3.2-21", clauses=TIMED, also=(*_MISSING, "R-10.3.2-22", "R-10.3.2-37", "R-10.3.2-42", *_OUTSIDE))
+@breaks("R-10.3.2-21", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-22", "R-10.3.2-37", "R-10.3.2-42", *_OUTSIDE))
 class calls_back_the_first_instance(Base):
     """A timer calls back the component that was started first."""
 
@@ -269,7 +259,7 @@ class says_cancelled_if_any_is(Timers):
         return bool(self._cancelled)
 
 
-@breaks("R-10.3-04", clauses=TIMED, also=(*_MISSING, "R-10.3.2-40"))
+@breaks("R-10.3-04", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-40"))
 class uses_numbers_once(Timers):
     """A number that was cancelled cannot be used again: its timer never expires."""
 
@@ -285,7 +275,7 @@ class uses_numbers_once(Timers):
         super().cancel_timer(number)
 
 
-@breaks("R-10.3-04", clauses=TIMED, also=(*_MISSING,))
+@breaks("R-10.3-04", clauses=TIMED, also=(*MISSING_CALLBACKS,))
 class uses_expired_numbers_once(Timers):
     """A number whose timer has expired cannot be used again."""
 
@@ -355,7 +345,7 @@ class serves_removed_components(Base):
             _Lasting._call_late(self, member, timer)  # type: ignore[arg-type]
 
 
-@breaks("R-10.3.2-42", clauses=TIMED, also=(*_OUTSIDE, *_MISSING))
+@breaks("R-10.3.2-42", clauses=TIMED, also=(*_OUTSIDE, *MISSING_CALLBACKS))
 class calls_back_during_startup(Timers):
     """A timer that is set in on_startup calls back before on_startup has returned."""
 
@@ -364,7 +354,7 @@ class calls_back_during_startup(Timers):
         self.begin()
 
 
-@alters("_new_timers", "R-10.3.2-21", clauses=TIMED, also=(*_MISSING, "R-10.3.2-42", "R-10.3.2-26"))
+@alters("_new_timers", "R-10.3.2-21", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-42", "R-10.3.2-26"))
 def has_no_timers_after_a_restart(_self: Base, timers: Timers, member: Member) -> Timers:
     """After a restart timers do not call back."""
     if member.__dict__.setdefault("had_timers", False):
@@ -378,7 +368,7 @@ class drops_what_it_declares_resumed(Base):
     """Timers that wait at stop are dropped, although they are declared to go on."""
 
 
-@breaks("R-10.3.2-23", clauses=TIMED, also=(*_MISSING, "R-10.3.2-42", "R-10.3.2-44"))
+@breaks("R-10.3.2-23", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-42", "R-10.3.2-44"))
 class refuses_timers_in_startup(Timers):
     """A timer cannot be set in on_startup."""
 
@@ -388,7 +378,7 @@ class refuses_timers_in_startup(Timers):
         super()._start(timer)
 
 
-@breaks("R-10.3.2-39", clauses=TIMED, also=(*_MISSING, "R-10.3.2-40"))
+@breaks("R-10.3.2-39", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-40"))
 class cancels_the_last_for_unknown_numbers(Timers):
     """cancel_timer of a number that nobody started cancels the timer that was started last."""
 

@@ -11,25 +11,13 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
-from ucm_cts.adapters.mutants.python.registry import TIMED, Base, Row, breaks, family
+from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, Row, breaks, family
 from ucm_cts.adapters.reference.python.index_timers import TimerElement
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.timers import Timer, Timers
 
 _ALL = (*(f"R-10.3.2-{number}" for number in range(19, 45)), "R-10.3-04", "R-10.3-09")
 """Without timers, or with few of them, anything may fail."""
-
-_MISSING = (
-    "R-10.3.2-21",
-    "R-10.3.2-30",
-    "R-10.3.2-33",
-    "R-10.3.2-36",
-    "R-10.3.2-37",
-    "R-10.3.2-39",
-    "R-10.3.2-44",
-    "R-10.3-04",
-)
-"""What a callback that does not come breaks, by what sets its timer apart."""
 
 
 def _has_timers(implementation: Implementation) -> bool:
@@ -178,7 +166,7 @@ class _Forgets(Timers):
             super()._start(timer)
 
 
-@breaks("R-10.3.2-33", clauses=TIMED, also=_MISSING)
+@breaks("R-10.3.2-33", clauses=TIMED, also=MISSING_CALLBACKS)
 class forgets_number_zero(_Forgets):
     """A timer with number 0 never expires."""
 
@@ -186,7 +174,7 @@ class forgets_number_zero(_Forgets):
         return timer.number == 0
 
 
-@breaks("R-10.3.2-33", clauses=TIMED, also=_MISSING)
+@breaks("R-10.3.2-33", clauses=TIMED, also=MISSING_CALLBACKS)
 class forgets_the_largest_number(_Forgets):
     """A timer with the largest number never expires."""
 
@@ -194,7 +182,7 @@ class forgets_the_largest_number(_Forgets):
         return timer.number == s.LARGEST_NUMBER
 
 
-@breaks("R-10.3.2-36", clauses=TIMED, also=(*_MISSING, "R-10.3.2-34"))
+@breaks("R-10.3.2-36", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-34"))
 class keeps_one_timer(Timers):
     """A timer that is started ends the one that was waiting."""
 
@@ -203,7 +191,7 @@ class keeps_one_timer(Timers):
         super()._start(timer)
 
 
-@breaks("R-10.3.2-36", clauses=TIMED, also=_MISSING)
+@breaks("R-10.3.2-36", clauses=TIMED, also=MISSING_CALLBACKS)
 class keeps_sixteen_timers(_Forgets):
     """Further timers are forgotten when sixteen wait."""
 
@@ -225,7 +213,7 @@ class _Numbers(Base):
 
 
 _OTHER_NUMBERS = (
-    *_MISSING,
+    *MISSING_CALLBACKS,
     "R-10.3.2-22",
     "R-10.3.2-34",
     "R-10.3.2-38",
@@ -280,7 +268,7 @@ class _Waits(Base):
 
 
 _SLOW = (
-    *_MISSING,
+    *MISSING_CALLBACKS,
     "R-10.3.2-25",
     "R-10.3.2-26",
     "R-10.3.2-27",
