@@ -7,13 +7,10 @@ from collections.abc import Iterator, KeysView, Mapping
 import msgspec
 import pytest
 
-from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, VARIANTS, variants_of
 from ucm_cts.adapters.mutants.toolchain.registry import mutants, variants
-from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.toolchain.program import Program, reference
-from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import (
     CLAIMABLE,
     load_interpretations,
@@ -21,10 +18,10 @@ from ucm_cts.harness.catalogue.requirements import (
     load_options,
     load_requirements,
 )
-from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.driver import Driver
+from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.models.core_models import CORE, EXTENSIONS
 from ucm_cts.harness.models.core_models import compare as compare_models
-from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.selftest.consulted import ConsultedReadings
@@ -42,6 +39,9 @@ pytestmark = pytest.mark.slow
 
 REQUIREMENTS = {requirement.id: requirement for requirement in load_requirements()}
 INTERPRETATION = {option: entry for entry in load_interpretations() for option in entry.options}
+OF = "ucm_cts.adapters.mutants.python:"
+"""How a mutant or a variant is named."""
+
 NOT_CONSULTED: Mapping[str, str] = {}
 """Options without an effect on the suite, each with the reason."""
 
@@ -106,25 +106,22 @@ def _judge_traces(option: str, consulted: set[str]) -> Iterator[None]:
     """
     entry = INTERPRETATION[option]
     own = {r.id for r in REQUIREMENTS.values() if entry.id in r.interpretations or r.clause in entry.clauses}
-    mutated = [(m.adapter, m.readings, {*m.requirements}) for m in MUTANTS.values() if option in m.readings]
-    declaring = [(v.adapter, v.readings, own) for v in VARIANTS.values() if option in v.readings]
-    others = [(v.adapter, v.readings, own) for v in variants_of(CONTAINER).values() if option not in v.readings]
-    disguise, payloads, decoder = Disguise(1, "{port}_{element}"), Payloads(1), from_host_decoder()
+    mutated = [(OF + m.name, m.readings, {*m.requirements}) for m in MUTANTS.values() if option in m.readings]
+    declaring = [(OF + v.name, v.readings, own) for v in VARIANTS.values() if option in v.readings]
+    others = [(OF + v.name, v.readings, own) for v in variants_of(CONTAINER).values() if option not in v.readings]
     for adapter, declared, requirements in [
         *mutated,
         *declaring,
-        (ReferenceAdapter, {}, own),
-        (ReferenceAdapter, {}, set(REQUIREMENTS)),
+        ("reference-py", {}, own),
+        ("reference-py", {}, set(REQUIREMENTS)),
         *others,
     ]:
         readings = ConsultedReadings(consulted, declared)
-        monitor, engine = Monitor(load_life_cycle(), Ics(readings)), Engine(adapter)
-        for purpose in load_purposes(entry.profile, *(f"{name}={value}" for name, value in declared.items())):
-            if requirements.intersection(purpose.requirements):
-                scenarios = purpose.draw(1, readings) if purpose.draw else purpose.scenarios
-                for _, plain in scenarios:
-                    scenario = disguise.scenario(payloads.deal(plain))
-                    traced = decoder.decode(engine.answer(encode(Run(0, scenario))))
-                    assert isinstance(traced, Traced)
-                    monitor.judge(scenario, traced.events)
-                    yield
+        monitor = Monitor(load_life_cycle(), Ics(readings))
+        purposes = load_purposes(entry.profile, *(f"{name}={value}" for name, value in declared.items()))
+        own_purposes = [p for p in purposes if requirements.intersection(p.requirements)]
+        cases = (case for p in own_purposes for case in (p.draw(1, readings) if p.draw else p.scenarios))
+        with Driver(locate(adapter, virtual_time=True), 1) as driver:
+            for answer in driver.run(cases):
+                monitor.judge(answer.disguised, answer.trace)
+                yield
