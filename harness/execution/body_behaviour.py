@@ -7,6 +7,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.harness.execution.planned_actions import Act, Plan, as_entered, depends_on_entries, is_as_planned, plan_of
+from ucm_cts.reference_models.model.service_policies import has_timers
 
 _NONE_HELD: dict[str, int] = {}
 """The references of a body that was given none. It stays empty."""
@@ -209,11 +210,6 @@ def _due_results(plan: Plan, enter: t.Enter) -> tuple[tuple[Datum, ...] | None, 
     return enter.arguments if own is None else own, answers[-1].exception
 
 
-def _has_timers(declaration: Declaration) -> bool:
-    """Does it provide the callback of the index timers?"""
-    return any(policy.definition == s.INDEX_TIMERS for policy in declaration.policies)
-
-
 def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
     """Why a body of this declaration cannot be entered so."""
     hook = event.hook
@@ -223,7 +219,7 @@ def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
         right = (event.value is not None or bool(event.wrong)) and event.port in declaration.provides
         return None if right else f"exchange on {event.port!r} with {event.value!r}"
     if hook == "method":
-        known = event.port in declaration.ports or (event.port == s.TIMER_CALLBACK and _has_timers(declaration))
+        known = event.port in declaration.ports or (event.port == s.TIMER_CALLBACK and has_timers(declaration))
         right = event.method is not None and event.arguments is not None and known
         return None if right else f"method {event.method!r} on {event.port!r}"
     if hook == "run" and not any(s.is_self_executing(policy.definition) for policy in declaration.policies):

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.reference_models.model.clock_reading import ClockReading
+from ucm_cts.reference_models.model.clock_readings import LOCAL, SYNCHRONIZED
 from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.service_policies import has_timers
 from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback
 
-CLOCKS = {"local": "get_local_time", "synchronized": "get_synchronized_time"}
+CLOCKS = {"local": LOCAL, "synchronized": SYNCHRONIZED}
 """The readings of ``absolute-clock``, with the method that reads each clock."""
 
 MOST = 100
@@ -113,7 +114,7 @@ def _busy(runtime: ObservedRuntime, before: int) -> Iterator[tuple[int, int | No
                     yield execution.enter.t, execution.left if execution.over else None
 
 
-def was_kept_out(runtime: ObservedRuntime, callback: TimerCallback, since: int = 0) -> bool:
+def may_be_delayed(runtime: ObservedRuntime, callback: TimerCallback, since: int = 0) -> bool:
     """Did another execution of a component with timers, for longer than a moment, end so lately that it may have kept ``callback`` out, or, with
     ``since``, after that?
     """
@@ -158,8 +159,3 @@ def _overrun(runtime: ObservedRuntime, timer: Timer) -> int:
         if callback.t > due or left - callback.t >= timer.rate.lasts - lateness(runtime):
             return number
     return len(timer.callbacks)
-
-
-def shown(nanoseconds: float) -> str:
-    """A time as findings show it."""
-    return f"{nanoseconds / SECOND:.3f} s"

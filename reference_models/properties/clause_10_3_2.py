@@ -11,15 +11,15 @@ from ucm_cts.adapters.contract.trace import Raise
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.model import execution_policies as policies
 from ucm_cts.reference_models.model.callback_history import Callback
-from ucm_cts.reference_models.model.index_timers import is_callback, service_calls_of, timer_phases
+from ucm_cts.reference_models.model.index_timers import all_timers, is_callback, service_calls_of, timer_phases
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
-from ucm_cts.reference_models.model.paced_phases import granularity, lateness
+from ucm_cts.reference_models.model.paced_phases import granularity, lateness, shown
 from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, has_timers, policies_of, policy_elements
 from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback, TimerPhase, time_out_of
-from ucm_cts.reference_models.model.timer_times import earliest, shown
+from ucm_cts.reference_models.model.timer_times import earliest
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _SUPPORTED, _CALLBACK, _SERVICE, _NOT_WITHOUT = "R-10.3.2-19", "R-10.3.2-20", "R-10.3.2-23", "R-10.3.2-24"
@@ -75,36 +75,24 @@ def _refused(
     yield check.refused(operation, end, expected="a component with index timers is added and started")
 
 
-@property_at("entered", _SERVICE, _NOT_WITHOUT, at=("on_startup",), feature="timers")
-def timer_references(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
-    """on_startup hands over a reference of the service to components with the policy, at every start, and to no others."""
+@property_at("entered", _NOT_WITHOUT, at=("on_startup",), feature="timers")
+def no_timers_without_policy(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
+    """on_startup hands over no reference of the service to a component without the policy."""
     event, member, ongoing, _ = callback
-    if member is None or member.operational:
+    if member is None or member.operational or has_timers(member.declaration):
         return
-    own = policy_elements(member.declaration, s.INDEX_TIMERS)
+    of_others = {e for d in runtime.scenario.components.values() for e in policy_elements(d, s.INDEX_TIMERS)}
     given = {d.port for d in event.dependencies or () if any(r is not None for r in d.references)}
-    for element in own:
-        if element not in given:
-            yield check.fail(
-                "missing",
-                expected=f"on_startup of '{member.lane}' hands over a reference for {element}, which its timers provide",
-                observed="it handed over none of that name",
-                during=(ongoing, event),
-            )
-    if own:
+    wrong = sorted(of_others & given - {*member.declaration.requires})
+    if not wrong:
+        yield check.kept()
         return
-    others = {e for d in runtime.scenario.components.values() for e in policy_elements(d, s.INDEX_TIMERS)}
-    others -= {*member.declaration.requires}
-    for element in sorted(others & given):
-        yield check.fail(
-            "without policy",
-            expected=f"'{member.lane}', which has no timers, is handed no reference for {element}",
-            observed="it was handed one",
-            during=(ongoing, event),
-            requirement=_NOT_WITHOUT,
-        )
-    if not others & given:
-        yield check.kept(_NOT_WITHOUT)
+    yield check.fail(
+        "without policy",
+        expected=f"'{member.lane}', which has no timers, is handed no reference for {wrong[0]}",
+        observed="it was handed one",
+        during=(ongoing, event),
+    )
 
 
 @property_at("delivered", _CALLBACK, feature="timers")
@@ -149,7 +137,7 @@ def timer_service_returns(check: Property, runtime: ObservedRuntime) -> Conclusi
                 continue
             yield check.fail(
                 f"{call.request.method} raises",
-                expected=f"{call.request.method}{printed(call.request.arguments or ())} of '{phase.member.lane}' returns",
+                expected=f"{call.request.method}({printed(call.request.arguments or ())[1:-1]}) of '{phase.member.lane}' returns",
                 observed="it raised" if reply.raised else f"it raised {reply.exception}",
                 at=(call.request.n, reply.n),
             )
@@ -162,9 +150,8 @@ def _may_raise(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) ->
     if timer is None:
         return not _is_known(runtime, phase, call)
     reasons = []
-    if timer.is_contested or any(
-        t.is_started and t.number == timer.number and t.waits(call.request.n) for t in _before(phase, timer)
-    ):
+    before = [t for t in phase.timers if t.number == timer.number and t.call.request.n < call.request.n]
+    if timer.is_contested or any(t.is_started and t.waits(call.request.n) for t in before):
         reasons.append(("number-in-use", "refuse"))
     if timer.delay == (0, False):
         reasons.append(("zero-delay", "refused"))
@@ -186,30 +173,18 @@ def _is_known(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) -> 
         return False
     timer = timers[-1]
     due = earliest(runtime, timer, 0)
-    if (
-        timer.is_contested
-        or timer.is_in_startup
-        or not timer.waits(call.request.n)
-        or due is None
-        or call.reply is None
-    ):
+    is_open = timer.is_contested or timer.is_in_startup or not timer.waits(call.request.n)
+    if is_open or due is None or call.reply is None:
         return False
     return timer.rate is not None or call.reply.t < due
-
-
-def _before(phase: TimerPhase, timer: Timer) -> list[Timer]:
-    return [t for t in phase.timers if t.call.request.n < timer.call.request.n]
 
 
 @property_at("closed", _AT_ONCE, feature="timers", timed=True)
 def timer_service_returns_at_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Starting and cancelling a timer do not wait for its expiry."""
-    for phase in timer_phases(runtime):
-        for timer in phase.timers:
-            if not timer.has_usual_times or timer.is_contested:
-                continue
-            for call in (timer.call, *timer.cancels):
-                yield from _returned(check, runtime, timer, call)
+    for timer in all_timers(runtime):
+        for call in (timer.call, *timer.cancels) if timer.has_usual_times and not timer.is_contested else ():
+            yield from _returned(check, runtime, timer, call)
 
 
 def _returned(check: Property, runtime: ObservedRuntime, timer: Timer, call: MethodCall) -> Conclusions:

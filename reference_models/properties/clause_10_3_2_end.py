@@ -134,9 +134,8 @@ def is_canceled_tells(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if wrong:
                 yield check.fail(
                     "no boolean" if not isinstance(answer, bool) else f"not {str(due).lower()}",
-                    expected=f"is_canceled({number}) of '{phase.member.lane}' gives "
-                    + (str(due).lower() if isinstance(due, bool) else "a boolean, as declared"),
-                    observed=f"it gave {printed(reply.results or ())}",
+                    expected=f"is_canceled({number}) of '{phase.member.lane}' gives {_due_shown(runtime, due)}",
+                    observed=f"it gave {printed(reply.results or ())[1:-1] or 'nothing'}",
                     at=(call.request.n, reply.n),
                 )
                 break
@@ -145,6 +144,14 @@ def is_canceled_tells(check: Property, runtime: ObservedRuntime) -> Conclusions:
         else:
             if len(told) > 1:
                 yield check.kept()
+
+
+def _due_shown(runtime: ObservedRuntime, due: bool | str) -> str:
+    if isinstance(due, bool):
+        return str(due).lower()
+    declared = runtime.ics.reading("is-cancelled")
+    shown = {"inactive": "true", "cancelled": "false"}.get(declared)
+    return f"{shown}, as is-cancelled={declared} declares" if shown and due == "open" else "a boolean"
 
 
 def _number_is_plain(phase: TimerPhase, number: object) -> bool:

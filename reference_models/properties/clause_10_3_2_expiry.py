@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model.index_timers import timer_phases
+from ucm_cts.reference_models.model.index_timers import all_timers, timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.paced_phases import lateness
+from ucm_cts.reference_models.model.paced_phases import lateness, shown
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import Timer
 from ucm_cts.reference_models.model.timer_times import (
@@ -18,9 +18,8 @@ from ucm_cts.reference_models.model.timer_times import (
     free_after,
     is_kept_out,
     latest,
+    may_be_delayed,
     overrun,
-    shown,
-    was_kept_out,
 )
 from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -43,8 +42,7 @@ _USUAL_NUMBERS = range(1, 256)
 
 def _judged(runtime: ObservedRuntime) -> list[Timer]:
     """The timers with usual times whose number is theirs alone."""
-    timers = (timer for phase in timer_phases(runtime) for timer in phase.timers)
-    return [t for t in timers if t.has_usual_times and not t.is_contested and t.is_started]
+    return [t for t in all_timers(runtime) if t.has_usual_times and not t.is_contested and t.is_started]
 
 
 @property_at("closed", _EARLY, _FIRST, _RATE, feature="timers", timed=True)
@@ -92,15 +90,13 @@ def timers_expire_in_time(check: Property, runtime: ObservedRuntime) -> Conclusi
             come.append(timer)
     for timer in come:
         yield from _kept(check, runtime, timer, come)
-    for timer in (timer for phase in timer_phases(runtime) for timer in phase.timers):
-        is_judged = timer.is_started and not timer.is_contested and not timer.has_usual_times
-        if (
-            is_judged
-            and timer.rate is not None
-            and timer.callbacks
-            and (late := _stops(check, runtime, timer, was_busy=False))
-        ):
-            yield late
+    for timer in all_timers(runtime):
+        is_plain = timer.is_started and not timer.is_contested and bool(timer.callbacks)
+        if not is_plain or timer.has_usual_times or timer.rate is None:
+            continue
+        finding = _stops(check, runtime, timer, was_busy=False)
+        if finding is not None:
+            yield finding
 
 
 def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | None:
@@ -171,9 +167,7 @@ def _untimely(
 
 def _why_missing(runtime: ObservedRuntime, timer: Timer, number: int, was_busy: bool) -> str:
     """The requirement that is broken if callback ``number`` does not come: the one about what sets the timer apart."""
-    others = [
-        t for p in timer_phases(runtime) for t in p.timers if t is not timer and t.call.request.n < timer.until[0]
-    ]
+    others = [t for t in all_timers(runtime) if t is not timer and t.call.request.n < timer.until[0]]
     elsewhere = [t for t in others if t.phase.member is not timer.phase.member and t.number == timer.number]
     here = [t for t in others if t.phase is timer.phase]
     if any(t.call.request.n > timer.call.request.n or t.cancels for t in elsewhere):
@@ -229,7 +223,7 @@ def relative_times_count_from_start(check: Property, runtime: ObservedRuntime) -
         timers = [t for t in _judged(runtime) if t.phase is phase and t.rate is None and t.callbacks]
         for one, other in itertools.combinations(timers, 2):
             apart = other.call.request.t - one.call.request.t
-            busy = any(was_kept_out(runtime, t.callbacks[0], t.call.request.t) for t in (one, other))
+            busy = any(may_be_delayed(runtime, t.callbacks[0], t.call.request.t) for t in (one, other))
             if one.delay != other.delay or apart <= 2 * late or busy:
                 continue
             came = other.callbacks[0].t - one.callbacks[0].t
@@ -249,16 +243,15 @@ def relative_times_count_from_start(check: Property, runtime: ObservedRuntime) -
 @property_at("closed", _ONCE, feature="timers", timed=True)
 def sporadic_timers_come_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A sporadic timer calls back once, and not again within three further delays."""
-    for phase in timer_phases(runtime):
-        for timer in phase.timers:
-            if timer.rate is not None or timer.is_contested or not timer.callbacks or timer.cancels:
-                continue
-            if len(timer.callbacks) > 1:
-                yield check.fail(
-                    "again",
-                    expected=f"sporadic timer {timer.number} of '{phase.member.lane}' calls back once",
-                    observed=f"it called back {len(timer.callbacks)} times",
-                    at=at_of(timer, *timer.callbacks),
-                )
-            elif timer.until[1] - timer.callbacks[0].t > _QUIET * timer.delay.lasts and not timer.delay.is_absolute:
-                yield check.kept()
+    for timer in all_timers(runtime):
+        if timer.rate is not None or timer.is_contested or not timer.callbacks or timer.cancels:
+            continue
+        if len(timer.callbacks) > 1:
+            yield check.fail(
+                "again",
+                expected=f"sporadic timer {timer.number} of '{timer.phase.member.lane}' calls back once",
+                observed=f"it called back {len(timer.callbacks)} times",
+                at=at_of(timer, *timer.callbacks),
+            )
+        elif timer.until[1] - timer.callbacks[0].t > _QUIET * timer.delay.lasts and not timer.delay.is_absolute:
+            yield check.kept()

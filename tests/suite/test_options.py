@@ -123,5 +123,6 @@ def _judge_traces(option: str, consulted: set[str]) -> Iterator[None]:
         cases = (case for p in own_purposes for case in (p.draw(1, readings) if p.draw else p.scenarios))
         with Driver(locate(adapter, virtual_time=True), 1) as driver:
             for answer in driver.run(cases):
+                assert answer.trace, answer.name
                 monitor.judge(answer.disguised, answer.trace)
                 yield

@@ -9,7 +9,6 @@ from ucm_cts.harness.purposes.derived.timer_steps import (
     PORT,
     READ_CLOCKS,
     SERVICE,
-    SYNCHRONIZED,
     TIMERS,
     WITH_CLOCK,
     after,
@@ -27,6 +26,7 @@ from ucm_cts.harness.purposes.derived.timer_steps import (
     together,
 )
 from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.reference_models.model.clock_readings import LOCAL, SYNCHRONIZED
 
 _INSIDE = "inside"
 _SELF, _ACTIVE = Policy(s.SELF_EXECUTING), Policy(s.ACTIVE, PORT)
@@ -278,7 +278,7 @@ def _unusual() -> TestPurpose:
 def _dates() -> list[TestPurpose]:
     """Dates that come, that have passed, and that are far away; by the clock that the vendor declares."""
     found = []
-    for declared, clock in (("observed|local", "get_local_time"), ("synchronized", SYNCHRONIZED)):
+    for declared, clock in (("observed|local", LOCAL), ("synchronized", SYNCHRONIZED)):
         orders = (
             *READ_CLOCKS,
             dated(5, 2, 1, clock),

@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, CallMethod, Declaration, Hook, Policy, Scenario, Step
 from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.reference_models.model.clock_readings import LOCAL, SYNCHRONIZED
 
 PORT, OTHER_PORT = "in.api", "aux.api"
 SERVICE, CLOCK = "timer.timer_service", "clock.clock_api"
-LOCAL, SYNCHRONIZED = "get_local_time", "get_synchronized_time"
 
 TIMERS = Policy(s.INDEX_TIMERS, element=SERVICE)
 WITH_CLOCK = (TIMERS, Policy(s.CLOCK, element=CLOCK))

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.methods import alters
 from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
+from ucm_cts.adapters.mutants.python.variants.timed import cancels_what_is_not_on_its_way
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.timers import Timer, Timers
 
@@ -412,3 +413,13 @@ def keeps_cancels_over_restarts(_self: Base, timers: Timers, member: Member) -> 
     timers._start = keeping  # type: ignore[method-assign]
     member.__dict__["former"] = set(kept)
     return timers
+
+
+@breaks("R-10.3.2-40", clauses=TIMED, readings={"is-cancelled": "inactive"})
+class says_what_it_declares_inactive(Base):
+    """is_canceled is false for timers that have expired, although it is declared to be true."""
+
+
+@breaks("R-10.3.2-38", clauses=TIMED, readings={"timer-cancel": "strict"})
+class cancels_less_than_it_declares(cancels_what_is_not_on_its_way):
+    """A timer that waits for its component is not cancelled, although it is declared to be."""

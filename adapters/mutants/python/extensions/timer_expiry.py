@@ -367,3 +367,13 @@ class does_not_repeat_dates(Timers):
 @breaks("R-10.3.2-42", clauses=TIMED, readings={"timer-in-startup": "ignored"})
 class serves_timers_of_startup_that_it_declares_ignored(Base):
     """A timer that is set in on_startup calls back, although it is declared to have no effect."""
+
+
+@breaks("R-10.3.2-32", clauses=TIMED, readings={"absolute-rate": "refused"})
+class serves_rates_that_it_declares_refused(Base):
+    """A rate with the flag of dates is a period, although it is declared to be refused."""
+
+
+@breaks("R-10.3.2-31", clauses=TIMED, also=_RATE, readings={"first-periodic-expiry": "delay-plus-rate"})
+class begins_at_the_delay_that_it_declares_later(Base):
+    """The first callback of a periodic timer comes at the delay, although it is declared to come one rate later."""

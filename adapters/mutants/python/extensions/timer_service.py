@@ -12,7 +12,8 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
 from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, Row, breaks, family
-from ucm_cts.adapters.reference.python.index_timers import TimerElement
+from ucm_cts.adapters.mutants.python.variants.timed import has_two_timer_services
+from ucm_cts.adapters.reference.python.index_timers import SetsTimers, TimerElement
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.timers import Timer, Timers
 
@@ -94,22 +95,36 @@ class hands_the_service_to_all(Base):
 
 
 class _Raises(Timers):
-    """``method`` raises."""
+    """``raising`` is the method that raises, and whether it does its work before."""
 
-    method = ""
+    raising = ("", False)
 
     def __getattribute__(self, name: str) -> Any:
-        if name == type(self).method:
+        own = super().__getattribute__(name)
+        method, works = type(self).raising
+        if name != method:
+            return own
+
+        def raises(*arguments: Any) -> Any:
+            if works:
+                own(*arguments)
             raise UcmError("refused")
-        return super().__getattribute__(name)
+
+        return raises
 
 
 family(
     _Raises,
-    "method",
+    "raising",
     {
-        "cannot_start_periodic": Row("R-10.3.2-23", "Periodic timers cannot be started.", s.START_PERIODIC, also=_ALL),
-        "cannot_start_sporadic": Row("R-10.3.2-23", "Sporadic timers cannot be started.", s.START_SPORADIC, also=_ALL),
+        "cannot_start_periodic": Row(
+            "R-10.3.2-23", "Periodic timers cannot be started.", (s.START_PERIODIC, False), _ALL
+        ),
+        "cannot_start_sporadic": Row(
+            "R-10.3.2-23", "Sporadic timers cannot be started.", (s.START_SPORADIC, False), _ALL
+        ),
+        "cancels_and_raises": Row("R-10.3.2-23", "cancel_timer cancels and raises.", (s.CANCEL_TIMER, True), _ALL),
+        "cannot_be_asked": Row("R-10.3.2-23", "is_canceled raises.", (s.IS_CANCELED, False), _ALL),
     },
     TIMED,
 )
@@ -347,34 +362,6 @@ class tells_seconds_alone(_Tells):
         return [told[0], number]
 
 
-class _RaisesAfterwards(Timers):
-    """``method`` does its work and raises."""
-
-    method = ""
-
-    def __getattribute__(self, name: str) -> Any:
-        own = super().__getattribute__(name)
-        if name != type(self).method:
-            return own
-
-        def raising(*arguments: Any) -> Any:
-            own(*arguments)
-            raise UcmError("refused")
-
-        return raising
-
-
-family(
-    _RaisesAfterwards,
-    "method",
-    {
-        "cancels_and_raises": Row("R-10.3.2-23", "cancel_timer cancels and raises.", s.CANCEL_TIMER, also=_ALL),
-        "cannot_be_asked": Row("R-10.3.2-23", "is_canceled raises.", s.IS_CANCELED, also=_ALL),
-    },
-    TIMED,
-)
-
-
 class _Wraps(Timers):
     """A relative time is taken modulo ``most`` seconds."""
 
@@ -397,3 +384,11 @@ family(
     },
     TIMED,
 )
+
+
+@breaks("R-10.3-09", clauses=TIMED, readings={"second-timer-policy": "separate"})
+class shares_timers_of_two_policies(has_two_timer_services):
+    """Two policies of a component have numbers in common."""
+
+    def _service_element(self, member: Member, policy: s.Policy) -> PortConnection:
+        return SetsTimers._service_element(self, member, policy)
