@@ -6,7 +6,15 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
-from ucm_cts.harness.execution.planned_actions import Act, Plan, as_entered, depends_on_entries, is_as_planned, plan_of
+from ucm_cts.harness.execution.planned_actions import (
+    Act,
+    Due,
+    Plan,
+    as_entered,
+    depends_on_entries,
+    is_as_planned,
+    plan_of,
+)
 from ucm_cts.reference_models.model.service_policies import has_timers
 
 _NONE_HELD: dict[str, int] = {}
@@ -15,10 +23,11 @@ _NONE_HELD: dict[str, int] = {}
 
 class Body:
     """An instance of a component; ``held`` are the numbers of references of each port element that it has held, one after the
-    other: now the last ones. ``entries`` are those at methods, if what it calls depends on its entries.
+    other: now the last ones. ``entries`` are those at methods, if what it calls depends on its entries. ``timers`` are the object timers
+    that came to it: by which method, and the event.
     """
 
-    __slots__ = ("declaration", "depends_on_entries", "entries", "held", "plans")
+    __slots__ = ("declaration", "depends_on_entries", "entries", "held", "plans", "timers")
 
     def __init__(self, declaration: Declaration) -> None:
         self.declaration = declaration
@@ -26,6 +35,15 @@ class Body:
         self.entries: list[t.Enter] = []
         self.held = [_NONE_HELD]
         self.plans: dict[str, Plan] = {}
+        self.timers: list[tuple[str, int]] = []
+
+    def take_timer(self, method: str | None, event: t.Enter | t.Reply) -> str | None:
+        """It gets an object timer by ``method``, if the event tells one; what is wrong with its number."""
+        if event.timer is None:
+            return None
+        self.timers.append((method or "", event.n))
+        due = len(self.timers)
+        return None if event.timer == due else f"timer {event.timer} came after {due - 1}"
 
     def plan(self, hook: s.Hook) -> Plan:
         """Its plan for ``hook``."""
@@ -130,7 +148,7 @@ class BodyChecks:
         if body.depends_on_entries and event.hook == "method":
             body.entries.append(event)
         thread.frames.append(Frame(event, body))
-        return problem
+        return body.take_timer(event.method, event) or problem
 
     def check_request(self, event: t.Request, thread: Thread) -> str | None:
         body = self.body(event)
@@ -154,7 +172,8 @@ class BodyChecks:
         within = thread.frames[-1] if thread.frames else None
         if within is not None and within.body is not None and within.body.depends_on_entries:
             within.replies[asked.n] = event  # type: ignore[union-attr]
-        return None
+        body = self.body(event)
+        return body.take_timer(asked.method, event) if body is not None else None  # type: ignore[union-attr]
 
     def check_act(self, event: t.Pushed | t.Siblings | t.Held, thread: Thread) -> str | None:
         frame = thread.entered(event)
@@ -181,7 +200,9 @@ class BodyChecks:
         assert isinstance(enter, t.Enter)
         if enter.hook != event.hook:
             return f"{event.hook} is left where {enter.hook} was entered"
-        actions, raises, returned = plan = body.plan(enter.hook)
+        plan = body.plan(enter.hook)
+        actions: tuple[Due, ...] = plan.actions
+        raises, returned = plan.raises, plan.returns
         if event.raised != raises:
             return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
         if event.hook == "method" and not event.raised:
@@ -189,7 +210,7 @@ class BodyChecks:
             if (event.results, event.exception) != due:
                 return f"{enter.method} gave {event.results!r}, its plan says {due[0]!r}"
         if body.depends_on_entries:
-            actions = as_entered(actions, acts, enter, body.entries, frame.replies)
+            actions = as_entered(plan.actions, acts, enter, body.entries, frame.replies, body.timers)
         # most bodies have nothing to do
         if (actions or acts) and not is_as_planned(actions, acts, body.held_since(frame.began)):
             return f"{event.component} did not act in {event.hook} as its plan says"
@@ -219,7 +240,9 @@ def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
         right = (event.value is not None or bool(event.wrong)) and event.port in declaration.provides
         return None if right else f"exchange on {event.port!r} with {event.value!r}"
     if hook == "method":
-        known = event.port in declaration.ports or (event.port == s.TIMER_CALLBACK and has_timers(declaration))
+        is_handler = event.port in declaration.handlers and event.method == s.ON_TRIGGER
+        known = event.port in declaration.ports or is_handler
+        known = known or (event.port == s.TIMER_CALLBACK and has_timers(declaration))
         right = event.method is not None and event.arguments is not None and known
         return None if right else f"method {event.method!r} on {event.port!r}"
     if hook == "run" and not any(s.is_self_executing(policy.definition) for policy in declaration.policies):

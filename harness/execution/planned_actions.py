@@ -17,6 +17,17 @@ Act = Request | Pushed | Siblings | Held
 """Events that show an action of a plan."""
 
 
+class OnTimer(NamedTuple):
+    """A call of the object timer of this number."""
+
+    call: s.CallMethod
+    timer: int
+
+
+Due = Action | OnTimer
+"""What a body has to do: an action, or one whose timer is known."""
+
+
 class Plan(NamedTuple):
     """What a body does at a hook, whether it raises in the end, and what ``exchange`` returns if the plan says so."""
 
@@ -35,7 +46,10 @@ def plan_of(declaration: Declaration, hook: s.Hook) -> Plan:
 def depends_on_entries(declaration: Declaration) -> bool:
     """Does what the body calls depend on what it was entered with, or had been given before?"""
     calls = [a for plan in declaration.plan.values() for a in plan if isinstance(a, s.CallMethod)]
-    return any(call.remembered or call.given is not None or call.from_clock is not None for call in calls)
+    return any(
+        call.remembered or call.given is not None or call.from_clock is not None or call.on is not None
+        for call in calls
+    )
 
 
 def as_entered(
@@ -44,20 +58,24 @@ def as_entered(
     enter: Enter,
     entries: Sequence[Enter],
     replies: Mapping[int, Reply] = {},
-) -> tuple[Action, ...]:
+    timers: Sequence[tuple[str, int]] = (),
+) -> tuple[Due, ...]:
     """The plan of a body that was entered by ``enter``, with the values that it had been given at its ``entries``, and by the ``replies``
-    to requests of this plan, by request.
+    to requests of this plan, by request. ``timers`` are the object timers that came to it: by which method, and the event.
 
     A call is left out if the body was entered with another value, or had not been given one of the call's values; if it was given
     it meanwhile, the ``acts`` decide.
     """
-    found: list[Action] = []
+    found: list[Due] = []
     pairs = iter([*itertools.zip_longest(acts, acts[1:])])
     for action in plan:
         if isinstance(action, s.CallMethod) and action.given not in (None, enter.value):
             continue
         if isinstance(action, s.CallMethod) and action.from_clock is not None:
             found += _dated(action, action.from_clock, pairs, replies)
+            continue
+        if isinstance(action, s.CallMethod) and action.on is not None:
+            found += _on_timer(action, action.on, acts, enter, timers)
             continue
         if not isinstance(action, s.CallMethod) or not action.remembered:
             found.append(action)
@@ -74,6 +92,20 @@ def as_entered(
         if not meanwhile or any(_is(act, call) for act in acts):
             found.append(call)
     return tuple(found)
+
+
+def _on_timer(
+    call: s.CallMethod, of: s.TimerFrom, acts: Sequence[Act], enter: Enter, timers: Sequence[tuple[str, int]]
+) -> list[Due]:
+    """The call of the timer that the body was given; nothing if it was not. If it was given it meanwhile, the ``acts`` decide."""
+    if of.nth == 0:
+        return [OnTimer(call, enter.timer)] if enter.timer is not None and enter.method == of.method else []
+    matching = [(number, n) for number, (method, n) in enumerate(timers, 1) if method == of.method]
+    if of.nth > len(matching):
+        return []
+    number, n = matching[of.nth - 1]
+    due = OnTimer(call, number)
+    return [due] if n < enter.n or any(_is(act, due) for act in acts) else []
 
 
 def _dated(
@@ -113,7 +145,7 @@ def _given(one: s.Remembered, enter: Enter, entries: Sequence[Enter]) -> Enter |
     return found if found is not None and one.position < len(found.arguments or ()) else None
 
 
-def is_as_planned(plan: Sequence[Action], acts: Sequence[Act], held: tuple[dict[str, int], ...], done: int = 0) -> bool:
+def is_as_planned(plan: Sequence[Due], acts: Sequence[Act], held: tuple[dict[str, int], ...], done: int = 0) -> bool:
     """Are ``acts``, but for those that are ``done``, what the plan has a body do that held these references, by number, at
     one moment or another?
     """
@@ -138,19 +170,22 @@ def is_as_planned(plan: Sequence[Action], acts: Sequence[Act], held: tuple[dict[
     return done == len(acts)
 
 
-def _are(acts: Sequence[Act], action: Action, times: int) -> bool:
+def _are(acts: Sequence[Act], action: Due, times: int) -> bool:
     """Is each of ``acts`` this ``action``, and are there so many?"""
     return len(acts) == times and all(_is(act, action) for act in acts)
 
 
-def _is(act: Act, action: Action) -> bool:
+def _is(act: Act, action: Due) -> bool:
     """Does ``act`` show this action?"""
     match act:
         case Request(method=None):
             return isinstance(action, s.CallPort) and (action.port, action.value) == (act.port, act.value)
         case Request():
-            own = act.port, act.method, act.arguments or ()
-            return isinstance(action, s.CallMethod) and (action.port, action.method, action.arguments) == own
+            call, timer = action if isinstance(action, OnTimer) else (action, None)
+            own = act.port, act.method, act.arguments or (), act.handler, act.timer
+            return (
+                isinstance(call, s.CallMethod) and (call.port, call.method, call.arguments, call.handler, timer) == own
+            )
         case Pushed():
             own_burst = act.port, act.first, act.count
             return isinstance(action, s.Burst) and (action.port, action.first, action.count) == own_burst
