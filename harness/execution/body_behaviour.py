@@ -242,7 +242,7 @@ def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
     if hook == "method":
         is_handler = event.port in declaration.handlers and event.method == s.ON_TRIGGER
         known = event.port in declaration.ports or is_handler
-        known = known or (event.port == s.TIMER_CALLBACK and has_timers(declaration))
+        known = known or (event.port == s.TIMER_CALLBACK and has_timers(declaration, s.INDEX_TIMERS))
         right = event.method is not None and event.arguments is not None and known
         return None if right else f"method {event.method!r} on {event.port!r}"
     if hook == "run" and not any(s.is_self_executing(policy.definition) for policy in declaration.policies):

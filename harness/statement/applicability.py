@@ -17,10 +17,11 @@ from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.statement import HOOKS, IMPOSSIBLE, Statement, default_statement
 from ucm_cts.harness.results.values import Verdict
 from ucm_cts.reference_models.model.execution_policies import protection_of
+from ucm_cts.reference_models.model.service_policies import TIMERS
 
 Cases = tuple[tuple[str, Scenario], ...]
 
-_PARTS_OF_POLICIES = {s.INDEX_TIMERS: "index-timers"}
+_PARTS_OF_POLICIES = {s.INDEX_TIMERS: "index-timers", s.OBJECT_TIMERS: "object-timers"}
 """The parts that have another name than their policy."""
 
 
@@ -180,7 +181,7 @@ def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
     """
     patience = round(scenario.patience * statement.ixit["patience"] / default_statement().ixit["patience"])
     policies = [policy for declaration in scenario.components.values() for policy in declaration.policies]
-    if any(policy.settings or policy.definition == s.INDEX_TIMERS for policy in policies):
+    if any(policy.settings or policy.definition in TIMERS for policy in policies):
         patience = max(patience, scenario.patience)
     steps = scenario.steps
     if not statement.meets("trace-sink=hook"):
