@@ -181,7 +181,7 @@ class Timer:
         """What findings call it."""
         if self.kind == "index":
             return f"timer {self.number}"
-        return f"timer {self.number}, of handler '{self.handler}',"
+        return f"timer {self.number} of handler '{self.handler}'"
 
     def has_come(self, n: int) -> bool:
         """Had it called back for the last time before event ``n``?"""

@@ -142,11 +142,12 @@ def _certainly_waits(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCa
 
 @property_at("closed", _DIFFER, feature="timers")
 def identifiers_differ(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """Timers of one component that wait together have different identifiers; where that is declared, all timers have."""
+    """Timers of one scheduler that wait together have different identifiers; where that is declared, all timers have."""
     is_ever = runtime.ics.reading("timer-ids") == "ever"
     for phase in object_timer_phases(runtime):
-        known = [t for t in phase.timers if t.id is not None and t.is_started and not t.is_contested]
-        together = [(a, b) for a, b in itertools.combinations(known, 2) if is_ever or _wait_together(runtime, a, b)]
+        known = [t for t in phase.timers if t.id is not None and t.is_started]
+        pairs = [(a, b) for a, b in itertools.combinations(known, 2) if a.call.request.port == b.call.request.port]
+        together = [(a, b) for a, b in pairs if is_ever or _wait_together(runtime, a, b)]
         same = next(((a, b) for a, b in together if a.id == b.id), None)
         if same is not None:
             one, other = same

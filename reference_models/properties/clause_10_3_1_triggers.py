@@ -131,7 +131,7 @@ def triggers_have_their_timer(check: Property, runtime: ObservedRuntime) -> Conc
             if callback.enter.wrong:
                 observed, requirement = f"it was handed {callback.enter.wrong}", _TIMER
             elif callback.stranger is not None:
-                observed = f"it was handed {callback.stranger.label.rstrip(',')}"
+                observed = f"it was handed {callback.stranger.label}"
                 requirement = _HANDLER
             elif callback.timer is None and not callback.is_open:
                 observed, requirement = "no timer had been made with that handler", _HANDLER
@@ -153,9 +153,8 @@ def triggers_have_their_timer(check: Property, runtime: ObservedRuntime) -> Conc
         come = [c.timer for c in phase.callbacks if c.timer is not None and c.timer.phase is phase]
         if is_right and len({timer.handler for timer in come}) > 1:
             yield check.kept(_HANDLER)
-        if is_right and any(
-            c.timer is not None and c.id is not None and c.timer.handles[0] != c.enter.timer for c in phase.callbacks
-        ):
+        others = (c for c in phase.callbacks if c.timer in come and c.id is not None)
+        if is_right and any(c.timer is not None and c.timer.handles[0] != c.enter.timer for c in others):
             yield check.kept(_TIMER)
 
 
@@ -225,7 +224,7 @@ def _readings_of_delta(runtime: ObservedRuntime, timer: Timer, number: int, told
     if abs(told.lasts - (callback.t - last)) <= tolerance or (not number and told.lasts <= tolerance):
         fitting.add("since-last")
     due = earliest(runtime, timer, number)
-    if due is None or told.lasts <= max(0, callback.t - due) + tolerance:
+    if due is None or timer.is_in_startup or told.lasts <= max(0, callback.t - due) + tolerance:
         fitting.add("lateness")
     asked = [timer.delay] if timer.rate is None else [timer.rate, *([] if number else [timer.delay])]
     if any(told.lasts == one.lasts for one in asked):

@@ -193,10 +193,11 @@ def _why_missing(runtime: ObservedRuntime, timer: Timer, number: int, was_busy: 
     others = [t for t in all_timers(runtime) if t is not timer and t.call.request.n < timer.until[0]]
     elsewhere = [t for t in others if _shares_number(t, timer)]
     here = [t for t in others if t.phase is timer.phase]
+    cancelled = [t for t in others if t.kind == timer.kind == "object"] or here
     if any(t.call.request.n > timer.call.request.n or t.cancels for t in elsewhere):
         return _APART
     due = latest(runtime, timer, number) or timer.until[1]
-    cancels = [t.cancelled.request for t in here if t.cancelled is not None]
+    cancels = [t.cancelled.request for t in cancelled if t.cancelled is not None]
     if any(timer.call.request.n < cancel.n and cancel.t < due for cancel in cancels):
         return _ONE_ONLY[timer.kind]
     if was_busy:

@@ -48,6 +48,8 @@ class Trigger(Timer):
 class Triggers(Timers):
     """The object timers of one scheduler in one operational phase. One concern each, for variants to override."""
 
+    timer_class: type[ScheduledTimer]
+
     def __init__(self, call_back: Callable[[Timer], None]) -> None:
         super().__init__(call_back, lambda time_out: time_out[0] + time_out[1] / _MICROSECONDS)
         self._numbers = itertools.count(1)
@@ -81,7 +83,11 @@ class Triggers(Timers):
             last=now,
         )
         self._start(timer)
-        return ScheduledTimer(self, timer)
+        return self.given(timer)
+
+    def given(self, timer: Trigger) -> ScheduledTimer:
+        """The timer as components see it."""
+        return self.timer_class(self, timer)
 
     def _new_number(self) -> int:
         return next(self._numbers)
@@ -116,6 +122,9 @@ class ScheduledTimer(ObjectTimer):
 
     def is_cancelled(self) -> bool:
         return self.triggers.is_canceled(self.timer.number)
+
+
+Triggers.timer_class = ScheduledTimer
 
 
 class SchedulerElement(TimerScheduler):
@@ -182,14 +191,17 @@ class SchedulesTimers(SetsTimers):
 
         def enter() -> None:
             if triggers.take(timer):
-                told = self._delta_time(timer)
-                timer.handler.on_trigger(self._timer_told(triggers, timer), told, self._round_told(timer))
+                told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
+                self._handler_of(timer).on_trigger(*told)  # type: ignore[arg-type]
 
         with suppress(Exception):
             self._execute_callback(member, lambda: triggers.trigger.run(enter))
 
-    def _timer_told(self, triggers: Triggers, timer: Trigger) -> ObjectTimer:
-        return ScheduledTimer(triggers, timer)
+    def _timer_told(self, triggers: Triggers, timer: Trigger) -> ObjectTimer | None:
+        return triggers.given(timer)
+
+    def _handler_of(self, timer: Trigger) -> TimerHandler:
+        return timer.handler
 
     def _delta_time(self, timer: Trigger) -> Sequence[int]:
         """The delay that was asked for; from the second round on, the interval."""

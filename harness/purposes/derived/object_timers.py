@@ -106,8 +106,8 @@ def _repeated() -> TestPurpose:
     """Start delays and intervals that differ, one, two and five rounds, and a long series."""
     rounds = (repeated(0.5, 0.2, 5, 1), repeated(0.2, 0.5, 2, 1, SECOND), repeated(0.3, 0.4, 1, 1, THIRD))
     cases = [("rounds", alone(scheduling(*rounds), tell(1), after(2.2)))]
-    series = (tell(1), after(3.6))
-    cases.append(("thirty", alone(scheduling(repeated(0.3, 0.1, 30, 1), on_trigger=()), *series)))
+    series = (tell(1), after(6.8))
+    cases.append(("thirty", alone(scheduling(repeated(0.3, 0.2, 30, 1), on_trigger=()), *series)))
     return _about("repeated", "20 21 22 23 24 30", *cases)
 
 
