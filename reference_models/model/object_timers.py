@@ -11,6 +11,7 @@ from ucm_cts.reference_models.model.phases import phases_of
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.service_policies import policies_of, policy_elements
 from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, span_of
+from ucm_cts.reference_models.model.timer_times import earliest
 
 _STARTS = (s.SCHEDULE_ONCE, s.SCHEDULE_REPEATED)
 
@@ -36,6 +37,7 @@ class _Reading:
 
     ``owners``: the timer of each number under which one came to the body, as far as that is known.
     ``ids``: what the timer of such a number said first of its identifier.
+    ``resumed``: how often each timer triggered in later phases, by its number.
     """
 
     def __init__(self, runtime: ObservedRuntime, member: Member) -> None:
@@ -47,6 +49,7 @@ class _Reading:
         self.timers: list[Timer] = []
         self.owners: dict[int, Timer] = {}
         self.ids: dict[int, Datum] = {}
+        self.resumed: dict[int, int] = {}
         for call in calls:
             identifier = told_by(call, s.TIMER_ID)
             if identifier is not None and call.request.timer is not None:
@@ -91,40 +94,70 @@ class _Reading:
 
     def _take_trigger(self, phase: TimerPhase, callback: TimerCallback) -> None:
         callback.id = self.ids.get(callback.enter.timer or 0)
-        before = [t for t in self.timers if t.handler == callback.enter.port and t.call.request.n < callback.n]
+        made = [t for t in self.timers if t.call.reply is None or not t.call.reply.failed]
+        before = [t for t in made if t.handler == callback.enter.port and t.call.request.n < callback.n]
         here = [t for t in before if t.phase is phase]
-        if not here:
-            waiting = [t for t in before if t.phase is not phase and t.is_started and t.waits(phase.of.startup.n)]
-            if waiting:
-                callback.timer = waiting[0]
-                phase.resumed.append(callback)
+        earlier = [t for t in before if t.phase is not phase and t.is_started and self._may_go_on(t, phase)]
+        if here and not self.runtime.ics.permits("timers-at-stop", "resumed"):
+            earlier = []
+        if not here and not earlier:
             return
-        timer = self._whose(callback, here)
+        timer = self._whose(callback, [*earlier, *here])
         if timer is None:
             callback.is_open = callback.stranger is None
             return
         callback.timer = timer
+        if timer in earlier:
+            self.resumed[timer.number] = self.resumed.get(timer.number, 0) + 1
+            phase.resumed.append(callback)
+            return
         timer.callbacks.append(callback)
         self._own(timer, callback.enter.timer)
 
+    def _may_go_on(self, timer: Timer, phase: TimerPhase) -> bool:
+        """May a timer of an earlier phase, which waited when that ended, trigger in this one?"""
+        done = len(timer.callbacks) + self.resumed.get(timer.number, 0)
+        return timer.waits(phase.of.startup.n) and (timer.most is None or done < timer.most)
+
     def _whose(self, callback: TimerCallback, timers: list[Timer]) -> Timer | None:
-        """The timer of the handler that triggers it: the only one, or that with the identifier that was told; those that may be it are
-        contested from now on.
+        """The timer of the handler that triggers it: the only one that may, or that with the identifier that was told; those that may be it
+        are contested from now on.
         """
         if callback.id is not None:
-            same = [t for t in timers if t.id == callback.id]
-            others = [t for t in self.timers if t.handler != callback.enter.port and t.phase is timers[0].phase]
+            others = [t for t in self.timers if t.handler != callback.enter.port and t.phase is timers[-1].phase]
             others = [t for t in others if t.id == callback.id and t.waits(callback.n)]
-            if others and not same:
+            if others and all(t.id != callback.id for t in timers):
                 callback.stranger = others[0]
                 return None
-            unknown = [t for t in timers if t.id is None]
-            timers = same if len(same) == 1 else timers if len(timers) == 1 else same or unknown
-        if len(timers) == 1:
-            return timers[0]
-        for timer in timers:
+        possible = timers if len(timers) == 1 else self._possible(callback, timers)
+        if len(possible) == 1:
+            return possible[0]
+        for timer in possible:
             timer.is_contested = True
         return None
+
+    def _possible(self, callback: TimerCallback, timers: list[Timer]) -> list[Timer]:
+        """Those of several timers that may trigger it: they wait, and have the identifier that was told, or none that is known. An identifier
+        may be given again unless that is declared not to happen.
+        """
+        waiting = [t for t in timers if self._may_come(t, callback)]
+        if callback.id is None:
+            return waiting or timers
+        same = [t for t in timers if t.id == callback.id]
+        unknown = [t for t in waiting if t.id is None]
+        if same and self.runtime.ics.reading("timer-ids") == "ever":
+            return same
+        return [*(t for t in same if t in waiting), *unknown] or same or [t for t in timers if t.id is None] or timers
+
+    def _may_come(self, timer: Timer, callback: TimerCallback) -> bool:
+        """May it still trigger? It waits, or was cancelled when it was on its way."""
+        if timer.waits(callback.n):
+            return True
+        cancel = timer.cancelled
+        if cancel is None or timer.has_come(callback.n):
+            return False
+        due = earliest(self.runtime, timer, len(timer.callbacks))
+        return due is None or cancel.reply is None or due <= cancel.reply.t
 
 
 def _timer(phase: TimerPhase, call: MethodCall, number: int) -> Timer | None:

@@ -173,8 +173,8 @@ class Timer:
 
     @property
     def most(self) -> int | None:
-        """How often it calls back; None if there is no end."""
-        return 1 if self.rate is None else self.max_rounds
+        """How often it calls back; None if there is no end, or may be none."""
+        return 1 if self.rate is None else self.max_rounds or None
 
     @property
     def label(self) -> str:

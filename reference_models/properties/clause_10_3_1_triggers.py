@@ -160,7 +160,7 @@ def triggers_have_their_timer(check: Property, runtime: ObservedRuntime) -> Conc
 
 def _other_timer(runtime: ObservedRuntime, phase: TimerPhase, callback: TimerCallback) -> str:
     """Why the timer that was handed over is not the one that triggers; empty if it may be."""
-    if callback.id is None:
+    if callback.id is None or callback in phase.resumed:
         return ""
     same_handler = [t for t in phase.timers if t.handler == callback.enter.port and t.call.request.n < callback.n]
     if all(t.id is not None and t.id != callback.id for t in same_handler) and same_handler:

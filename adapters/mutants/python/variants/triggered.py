@@ -78,12 +78,26 @@ class has_two_schedulers(TakesSeveralSchedulers):
     """A component may have several policies for object timers, each with a scheduler of its own."""
 
 
+class _Numbered(ScheduledTimer):
+    """Its identifier is the least that no timer has which waits when it is made."""
+
+    def id(self) -> str:
+        known: dict[int, int] = self.triggers.__dict__.setdefault("identifiers", {})
+        return str(known[self.timer.number])
+
+
 @variant_of(*TRIGGERED, readings={"timer-ids": "waiting"})
 class uses_identifiers_again(Triggers):
     """The identifier of a timer that has ended is given to the next one."""
 
+    timer_class = _Numbered
+
     def _new_number(self) -> int:
-        return next(number for number in range(1, 1_000_000) if number not in self._waiting)
+        number = super()._new_number()
+        known: dict[int, int] = self.__dict__.setdefault("identifiers", {})
+        used = {known[waiting] for waiting in self._waiting}
+        known[number] = next(one for one in range(1, 1_000_000) if one not in used)
+        return number
 
 
 @variant_of(*TRIGGERED)
@@ -286,21 +300,15 @@ class raises_for_ended_timers(ScheduledTimer):
 class resumes_triggers(Base):
     """Object timers that wait at stop go on after the restart."""
 
-    def _end_execution(self, member: Member) -> None:
-        for triggers in member.schedulers:
-            if not triggers.trigger.ended.is_set():
-                member.__dict__["waiting_triggers"] = dict(triggers._waiting)
-        super()._end_execution(member)
-
     def _service_element(self, member: Member, policy: s.Policy) -> PortConnection:
+        before = member.schedulers[-1:]
         element = super()._service_element(member, policy)
-        if policy.definition == s.OBJECT_TIMERS:
+        for earlier in before if policy.definition == s.OBJECT_TIMERS else ():
             triggers = member.schedulers[-1]
             assert isinstance(triggers, Triggers)
-            waiting = member.__dict__.pop("waiting_triggers", {})
-            for _ in waiting:
-                triggers._new_number()
-            triggers._waiting.update(waiting)
+            assert isinstance(earlier, Triggers)
+            triggers._waiting, triggers._cancelled = earlier._waiting, earlier._cancelled
+            triggers._numbers = earlier._numbers
         return element
 
 
