@@ -125,7 +125,7 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     remembered: tuple[Remembered, ...] = ()
     given: Annotated[Int32 | None, Names("payload")] = None
     from_clock: FromClock | None = None
-    handler: PortElementName | None = None
+    handler: Annotated[str | None, Names("port element")] = None
     on: TimerFrom | None = None
 
 

@@ -18,10 +18,11 @@ Act = Request | Pushed | Siblings | Held
 
 
 class OnTimer(NamedTuple):
-    """A call of the object timer of this number."""
+    """A call of the object timer of this number. ``since`` is the event by which the body got it; 0 if it had it at the beginning."""
 
     call: s.CallMethod
     timer: int
+    since: int
 
 
 Due = Action | OnTimer
@@ -64,7 +65,7 @@ def as_entered(
     to requests of this plan, by request. ``timers`` are the object timers that came to it: by which method, and the event.
 
     A call is left out if the body was entered with another value, or had not been given one of the call's values; if it was given
-    it meanwhile, the ``acts`` decide.
+    it meanwhile, the ``acts`` decide. A call of a timer that came meanwhile says when it came.
     """
     found: list[Due] = []
     pairs = iter([*itertools.zip_longest(acts, acts[1:])])
@@ -75,7 +76,7 @@ def as_entered(
             found += _dated(action, action.from_clock, pairs, replies)
             continue
         if isinstance(action, s.CallMethod) and action.on is not None:
-            found += _on_timer(action, action.on, acts, enter, timers)
+            found += _on_timer(action, action.on, enter, timers)
             continue
         if not isinstance(action, s.CallMethod) or not action.remembered:
             found.append(action)
@@ -94,18 +95,15 @@ def as_entered(
     return tuple(found)
 
 
-def _on_timer(
-    call: s.CallMethod, of: s.TimerFrom, acts: Sequence[Act], enter: Enter, timers: Sequence[tuple[str, int]]
-) -> list[Due]:
-    """The call of the timer that the body was given; nothing if it was not. If it was given it meanwhile, the ``acts`` decide."""
+def _on_timer(call: s.CallMethod, of: s.TimerFrom, enter: Enter, timers: Sequence[tuple[str, int]]) -> list[Due]:
+    """The call of the timer that the body was given; nothing if it was not."""
     if of.nth == 0:
-        return [OnTimer(call, enter.timer)] if enter.timer is not None and enter.method == of.method else []
+        return [OnTimer(call, enter.timer, 0)] if enter.timer is not None and enter.method == of.method else []
     matching = [(number, n) for number, (method, n) in enumerate(timers, 1) if method == of.method]
-    if of.nth > len(matching):
+    if not 1 <= of.nth <= len(matching):
         return []
     number, n = matching[of.nth - 1]
-    due = OnTimer(call, number)
-    return [due] if n < enter.n or any(_is(act, due) for act in acts) else []
+    return [OnTimer(call, number, 0 if n < enter.n else n)]
 
 
 def _dated(
@@ -145,9 +143,15 @@ def _given(one: s.Remembered, enter: Enter, entries: Sequence[Enter]) -> Enter |
     return found if found is not None and one.position < len(found.arguments or ()) else None
 
 
-def is_as_planned(plan: Sequence[Due], acts: Sequence[Act], held: tuple[dict[str, int], ...], done: int = 0) -> bool:
+def is_as_planned(
+    plan: Sequence[Due],
+    acts: Sequence[Act],
+    held: tuple[dict[str, int], ...],
+    replies: Mapping[int, Reply] = {},
+    done: int = 0,
+) -> bool:
     """Are ``acts``, but for those that are ``done``, what the plan has a body do that held these references, by number, at
-    one moment or another?
+    one moment or another? ``replies`` are what came back, by request.
     """
     for index, action in enumerate(plan):
         if isinstance(action, s.RaiseError):
@@ -155,19 +159,34 @@ def is_as_planned(plan: Sequence[Due], acts: Sequence[Act], held: tuple[dict[str
         if isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
             continue
         times = 1
+        if isinstance(action, OnTimer) and action.since > _end(acts, done, replies):
+            # the timer came while the body acted, and it may have looked for it before
+            rest, made = plan[index + 1 :], acts[done : done + 1]
+            is_made = _are(made, action, 1) and made[0].n > action.since
+            return is_as_planned(rest, acts, held, replies, done) or (
+                is_made and is_as_planned(rest, acts, held, replies, done + 1)
+            )
         if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
             times = held[0].get(action.port, 0)
             others = [one.get(action.port, 0) for one in held[1:]]
             if any(other != times for other in others):
                 rest = plan[index + 1 :]
                 return any(
-                    _are(acts[done : done + n], action, n) and is_as_planned(rest, acts, held, done + n)
+                    _are(acts[done : done + n], action, n) and is_as_planned(rest, acts, held, replies, done + n)
                     for n in {times, *others}
                 )
         if not _are(acts[done : done + times], action, times):
             return False
         done += times
     return done == len(acts)
+
+
+def _end(acts: Sequence[Act], done: int, replies: Mapping[int, Reply]) -> int:
+    """The last event known of the acts that are ``done``; 0 if none is."""
+    if not done:
+        return 0
+    last = acts[done - 1]
+    return replies[last.n].n if last.n in replies else last.n
 
 
 def _are(acts: Sequence[Act], action: Due, times: int) -> bool:
@@ -181,7 +200,7 @@ def _is(act: Act, action: Due) -> bool:
         case Request(method=None):
             return isinstance(action, s.CallPort) and (action.port, action.value) == (act.port, act.value)
         case Request():
-            call, timer = action if isinstance(action, OnTimer) else (action, None)
+            call, timer = (action.call, action.timer) if isinstance(action, OnTimer) else (action, None)
             own = act.port, act.method, act.arguments or (), act.handler, act.timer
             return (
                 isinstance(call, s.CallMethod) and (call.port, call.method, call.arguments, call.handler, timer) == own
