@@ -24,10 +24,13 @@ from ucm_cts.adapters.contract.programming_model import (
 SCHEDULER = "sched"
 FIRST, SECOND = "first", "second"
 
-PLAIN, TRIGGERS, NULL, FAILS, DECLARED, NULL_TIMER, NULL_TIME, LARGEST, ODD_TIMER, FRACTION = range(10)
+PLAIN, TRIGGERS, NULL, FAILS, DECLARED, NULL_TIMER, NULL_TIME, LARGEST, ODD_TIMER, FRACTION, CROWD = range(11)
 """What happens when a time has so many seconds: a timer is made; it triggers at once; ..."""
 
 LARGEST_ROUND = 2**32 - 1
+
+VALUES = (0, -1, -2)
+"""What the framework calls port elements with. A disguise leaves them as they are."""
 
 
 def scheduled(seconds: int, handler: str = FIRST, **options: Any) -> s.CallMethod:
@@ -89,12 +92,17 @@ ALL = started(
             ),
             "exchange": (
                 *every_method(s.SCHEDULE_ONCE, 7),
-                repeated(PLAIN, 3, SECOND, given=1),
-                on_timer(s.IS_CANCELLED, s.SCHEDULE_REPEATED, 1, given=2),
-                repeated(NULL, 1, given=2),
-                repeated(ODD_TIMER, 0, given=3),
+                repeated(PLAIN, 3, SECOND, given=VALUES[0]),
+                on_timer(s.IS_CANCELLED, s.SCHEDULE_REPEATED, 1, given=VALUES[1]),
+                repeated(NULL, 1, given=VALUES[1]),
+                repeated(ODD_TIMER, 0, given=VALUES[2]),
                 s.CallMethod(
-                    SCHEDULER, s.SCHEDULE_ONCE, ([9, 9],), (s.Remembered(0, s.ON_TRIGGER, 0, 4),), 3, handler=SECOND
+                    SCHEDULER,
+                    s.SCHEDULE_ONCE,
+                    ([9, 9],),
+                    (s.Remembered(0, s.ON_TRIGGER, 0, 4),),
+                    VALUES[2],
+                    handler=SECOND,
                 ),
             ),
         },
@@ -102,7 +110,21 @@ ALL = started(
     ),
     component({"method": (s.RaiseError(),), "on_startup": (scheduled(TRIGGERS), repeated(PLAIN, 2))}),
 )
-"""Each of these, and calls of each timer; in the second component handlers fail."""
+"""Each of these but ``CROWD``, and calls of each timer; in the second component handlers fail."""
+
+CROWDED = started(
+    component(
+        {
+            "on_startup": (scheduled(CROWD),),
+            "method": (
+                on_timer(s.CANCEL, s.ON_TRIGGER, 30),
+                on_timer(s.TIMER_ID, s.ON_TRIGGER),
+                on_timer(s.CANCEL, s.ON_TRIGGER, 30),
+            ),
+        }
+    )
+)
+"""A timer triggers 20 times in each of four threads, which call one of the timers that meanwhile come."""
 
 
 class Timer(ObjectTimer):
@@ -163,6 +185,8 @@ class Scheduler(TimerScheduler):
             raise RuntimeError("no")
         if delay[0] == DECLARED:
             raise DeclaredException("refused", ["why", 1])
+        if delay[0] == CROWD:
+            _crowd(lambda number: handler.on_trigger(timer, delay, number))
         if delay[0] in triggers:
             handler.on_trigger(*triggers[delay[0]])
         return None if delay[0] == NULL else timer
@@ -176,10 +200,20 @@ class Scheduler(TimerScheduler):
         return None if start_delay[0] == NULL else timer
 
 
-class SchedulingAdapter(Adapter):
-    """Starts one body of each component. One that provides ``go`` is called there with 1, 2 and 3."""
+def _crowd(trigger: Callable[[int], None]) -> None:
+    def triggers() -> None:
+        for number in range(20):
+            trigger(number)
 
-    scheduler: Callable[[], TimerScheduler] = Scheduler
+    threads = [threading.Thread(target=triggers) for _ in range(4)]
+    for one in threads:
+        one.start()
+    for one in threads:
+        one.join()
+
+
+class SchedulingAdapter(Adapter):
+    """Starts one body of each component. They are called at each port element with each of ``VALUES``."""
 
     def create_runtime(self, implementations: Sequence[Implementation]) -> Sequence[Implementation]:
         return implementations
@@ -187,10 +221,10 @@ class SchedulingAdapter(Adapter):
     def start(self, container: Sequence[Implementation]) -> None:
         for one in container:
             body = one.create()
-            body.on_startup([PortConnection(p.element or "", (self.scheduler(),)) for p in one.policies])
-            go = body.get_portElement("go")
-            for value in (1, 2, 3) if go else ():
-                go.exchange(value)
+            body.on_startup([PortConnection(p.element or "", (Scheduler(),)) for p in one.policies])
+            for port in one.provides:
+                for value in VALUES:
+                    body.get_portElement(port).exchange(value)
 
     def add_component(self, container: Any, component_impl: str, attributes: Mapping[str, str]) -> int:
         return 1
@@ -214,21 +248,3 @@ class SchedulingAdapter(Adapter):
     def remove_container(self, manager: Any, sub_container: Any) -> None: ...
 
     def destroy(self, manager: Any) -> None: ...
-
-
-class Crowd(Scheduler):
-    """Each timer triggers 20 times from each of four threads."""
-
-    def scheduler_trigger(self, handler: TimerHandler, delay: Sequence[int]) -> ObjectTimer:
-        timer = self.new(delay)
-
-        def trigger() -> None:
-            for number in range(20):
-                handler.on_trigger(timer, delay, number)
-
-        threads = [threading.Thread(target=trigger) for _ in range(4)]
-        for one in threads:
-            one.start()
-        for one in threads:
-            one.join()
-        return timer
