@@ -30,7 +30,7 @@ def is_timer(value: Any) -> bool:
         return False
 
 
-def schedule(scheduler: Any, method: str, handler: pm.TimerHandler) -> Calling:
+def schedule(scheduler: Any, method: str, handler: pm.TimerHandler | None) -> Calling:
     """A call of ``scheduler``: takes the arguments behind the handler, and gives the timer, or nothing if the method returns none."""
 
     def call(arguments: list[Datum]) -> Sequence[Any]:

@@ -73,7 +73,7 @@ def overwrite(values: list[Datum]) -> None:
             values[index] = not value
         elif isinstance(value, int):
             values[index] = int(value == 0)
-        else:
+        elif isinstance(value, str):
             values[index] = value + "?"
 
 

@@ -35,24 +35,30 @@ class Memory(metaclass=KeptClass):
         self._timers: list[tuple[str, Any]] = []
         self._lock = threading.Lock()
 
-    def entry(self, method: str, arguments: tuple[Datum, ...], record: Callable[[], None]) -> Entry:
-        """Record and remember an entry, in one and the same order."""
-        entry = Entry(method, arguments)
-        if method not in self._methods:
-            record()
+    def entry(
+        self, method: str, arguments: tuple[Datum, ...], record: Callable[[Entry], None], timer: Any = None
+    ) -> Entry:
+        """Record and remember an entry, and the object ``timer`` that came with it, in one and the same order."""
+        if timer is None and method not in self._methods:
+            entry = Entry(method, arguments)
+            record(entry)
             return entry
         with self._lock:
-            record()
-            self._seen.append(entry)
+            entry = Entry(method, arguments, timer=self._number(method, timer) if timer is not None else None)
+            record(entry)
+            if method in self._methods:
+                self._seen.append(entry)
         return entry
 
-    def take_timer(self, method: str, timer: Any, record: Callable[[int], None]) -> int:
-        """Number an object timer that came by ``method``, and record that, in one and the same order."""
+    def take_timer(self, method: str, timer: Any, record: Callable[[int], None]) -> None:
+        """Number an object timer that came back from ``method``, and record that, in one and the same order."""
         with self._lock:
-            self._timers.append((method, timer))
-            number = len(self._timers)
-            record(number)
-        return number
+            record(self._number(method, timer))
+
+    def _number(self, method: str, timer: Any) -> int:
+        """The number of an object timer that came by ``method``."""
+        self._timers.append((method, timer))
+        return len(self._timers)
 
     def timer(self, of: s.TimerFrom, entry: Entry) -> tuple[int, Any] | None:
         """The number of an object timer, and itself; None if the body was not given it yet."""
@@ -61,7 +67,7 @@ class Memory(metaclass=KeptClass):
                 number = entry.timer if entry.method == of.method else None
             else:
                 matching = [index for index, (method, _) in enumerate(self._timers, 1) if method == of.method]
-                number = matching[of.nth - 1] if of.nth <= len(matching) else None
+                number = matching[of.nth - 1] if 1 <= of.nth <= len(matching) else None
             return (number, self._timers[number - 1][1]) if number is not None else None
 
     def arguments(self, call: s.CallMethod, entry: Entry) -> tuple[Datum, ...] | None:

@@ -200,11 +200,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             self.stage.messages.add(self.component, self.instance, int(arguments[0]))  # type: ignore[arg-type]
             return ["ok"]
         given = snapshot(arguments)
-        entry = self._given.entry(
-            method,
-            given,
-            lambda: self._record(t.Enter, hook="method", port=port, method=method, arguments=given, wrong=wrong),
-        )
+        entry = self._enter(port, method, given, wrong)
         answer = self._follow(method, entry)
         results = snapshot(given if answer.results is None else answer.results)
         self._record(t.Exit, hook="method", results=snapshot(results), exception=answer.exception)
@@ -215,7 +211,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         return list(results)
 
     def on_trigger(self, handler: str, timer: Any, delta_time: Any, round_: Any) -> None:
-        """The method of its ``handler``."""
+        """The method of its ``handler``, which gives no results."""
         if not self.stage.recorder.recording:
             return
         arguments = [delta_time, round_]
@@ -224,25 +220,25 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         else:
             wrong = "" if is_datum(arguments) else in_words(arguments)
         given = snapshot(arguments) if not wrong else ()
+        entry = self._enter(handler, s.ON_TRIGGER, given, wrong, None if wrong else timer)
+        self._follow(s.ON_TRIGGER, entry)
+        self._record(t.Exit, hook="method", results=())
 
-        def record(number: int | None = None) -> None:
+    def _enter(self, port: str, method: str, given: tuple[Datum, ...], wrong: str, timer: Any = None) -> Entry:
+        """Record an entry at a method, with the object timer that came with it."""
+
+        def record(entry: Entry) -> None:
             self._record(
                 t.Enter,
                 hook="method",
-                port=handler,
-                method=s.ON_TRIGGER,
+                port=port,
+                method=method,
                 arguments=given,
                 wrong=wrong,
-                timer=number,
+                timer=entry.timer,
             )
 
-        if wrong:
-            record()
-            entry = Entry(s.ON_TRIGGER)
-        else:
-            entry = Entry(s.ON_TRIGGER, given, timer=self._given.take_timer(s.ON_TRIGGER, timer, record))
-        self._follow(s.ON_TRIGGER, entry)
-        self._record(t.Exit, hook="method", results=())
+        return self._given.entry(method, given, record, timer)
 
     def _follow(self, method: str, entry: Entry) -> s.Answer:
         """Carry out the plan for an entry at ``method``; returns what it answers."""
@@ -304,12 +300,12 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
                 number, timer = found
                 self._call_method(action, call_timer(timer, action.method), arguments, number)
             return
-        handler = self._handlers.get(action.handler or "")
         for reference in tuple(self._references.get(action.port, ())):
-            if handler is not None:
-                self._call_method(action, schedule(reference, action.method, handler), arguments)
+            if action.handler is not None:
+                call = schedule(reference, action.method, self._handlers.get(action.handler))
             else:
-                self._call_method(action, call_port(reference, action.method), arguments)
+                call = call_port(reference, action.method)
+            self._call_method(action, call, arguments)
 
     def _dated(self, of: s.FromClock, arguments: tuple[Datum, ...]) -> tuple[Datum, ...] | None:
         """``arguments`` with a date; None if the body holds no clock, or it gives no time."""
