@@ -1,4 +1,5 @@
-// Binds the C++ reference framework: the only place that knows both it and the SDK (with hosting.hpp, object_timers.hpp and values.hpp).
+// Binds the C++ reference framework: the only place that knows both it and the SDK (with hosting.hpp, object_timers.hpp and
+// values.hpp).
 #include <cstdlib>
 
 #include <ucm_cts/main.hpp>
