@@ -164,7 +164,9 @@ def test_timers_live_from_start_to_stop(builds: Builds) -> None:
         *("on_init", "on_startup", "method", "method", "method", "method", "on_shutdown"),
         *("on_startup", "method", "method", "on_shutdown", "on_remove"),
     ]
-    assert [results for results in replies(trace, TIMERS) if results] == [(True,), (True,)], "dropped before on_shutdown"
+    assert [results for results in replies(trace, TIMERS) if results] == [(True,), (True,)], (
+        "dropped before on_shutdown"
+    )
 
 
 def test_a_callback_may_set_and_cancel_timers(builds: Builds) -> None:
