@@ -18,8 +18,8 @@ PARTS: Mapping[str, tuple[str, ...]] = {
     "core": ("container", "core"),
     "extensions": ("container", "core", "extensions"),
     "pim": ("pim",),
-    "idl": ("idl",),
-    "cpp11": ("cpp", "cpp11"),
-    "cpp03": ("cpp", "cpp03"),
+    "idl": ("idl", "code"),
+    "cpp11": ("code", "cpp", "cpp11"),
+    "cpp03": ("code", "cpp", "cpp03"),
 }
-"""The requirements that belong to a profile, by what the catalogue files them under."""
+"""The requirements that belong to a profile, by what the catalogue files them under; ``code`` is asked of all that generate code."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import fnmatch
 import functools
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Literal, get_args
 
@@ -12,7 +12,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import read
-from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 
 Level = Literal["shall", "should", "may", "statement"]
@@ -38,7 +38,10 @@ Part = Literal[
     "sporadic_protected_active_component",
     "periodic_protected_active_component",
 ]
-"""What a requirement of profile extensions belongs to."""
+"""What a requirement of clauses 10.2 to 10.5 belongs to."""
+
+_WITH_PARTS = {"extensions", *(family for profile in TOOLCHAIN_PROFILES for family in PARTS[profile])}
+"""What requirements with a part may be filed under: the standard properties of 10.2 are a matter of tool chains, too."""
 
 _SEVERAL: Mapping[str, tuple[str, ...]] = {
     "timers": ("index-timers", "object-timers"),
@@ -52,7 +55,7 @@ _SEVERAL: Mapping[str, tuple[str, ...]] = {
 """What several parts have in common, and these parts, which a vendor claims one by one."""
 
 CLAIMABLE: tuple[str, ...] = tuple(part for part in get_args(Part) if part and part not in _SEVERAL)
-"""The parts of profile extensions, finished or not."""
+"""The parts of clauses 10.2 to 10.5, finished or not."""
 
 
 def claims_of(part: str) -> tuple[str, ...]:
@@ -75,7 +78,7 @@ class Requirement(Value, frozen=True):
     ``interpretations``: ids of entries in ``suite/interpretations``.
     ``profile``: the first profile that has it.
     ``pending``: what its property still needs.
-    ``part``: the part of profile extensions that it belongs to, which a vendor claims by itself, or what several parts have in common.
+    ``part``: the part of clauses 10.2 to 10.5 that it belongs to, which a vendor claims by itself, or what several parts have in common.
     """
 
     id: str
@@ -93,7 +96,7 @@ class Requirement(Value, frozen=True):
     part: Part = ""
 
     def __post_init__(self) -> None:
-        if self.part and self.profile != "extensions":
+        if self.part and self.profile not in _WITH_PARTS:
             raise ValueError(f"part {self.part} is of profile extensions, not of {self.profile}; leave it out")
 
     @property
@@ -137,7 +140,7 @@ def load_requirements() -> tuple[Requirement, ...]:
 
 @functools.cache
 def unfinished_parts() -> frozenset[str]:
-    """The parts of profile extensions of which some requirement is pending: no run asks for them, and nobody can claim them."""
+    """The parts of clauses 10.2 to 10.5 of which some requirement is pending: no run asks for them, and nobody can claim them."""
     return frozenset(part for r in load_requirements() if r.part and r.pending for part in claims_of(r.part))
 
 
@@ -168,19 +171,20 @@ def load_interpretations() -> tuple[Interpretation, ...]:
     """All decisions about unclear places. Raises ``DocumentError``."""
     return tuple(
         msgspec.structs.replace(entry, profile=profile)
-        for profile, pattern in _INTERPRETATIONS.items()
+        for profile, patterns in _INTERPRETATIONS.items()
+        for pattern in patterns
         for path in sorted((SUITE / "interpretations").glob(pattern))
         for entry in read(path, list[Interpretation])
     )
 
 
 _INTERPRETATIONS = {
-    "container": "clause_11.yaml",
-    "core": "clause_10_1.yaml",
-    "extensions": "clause_10_extensions_*.yaml",
-    "pim": "clause_9*.yaml",
-    "idl": "clause_12.yaml",
-    "cpp": "clause_13.yaml",
+    "container": ("clause_11.yaml",),
+    "core": ("clause_10_1.yaml",),
+    "extensions": ("clause_10_extensions_*.yaml",),
+    "pim": ("clause_9*.yaml", "clause_10_2.yaml"),
+    "idl": ("clause_12.yaml",),
+    "cpp": ("clause_13.yaml",),
 }
 """Where the decisions about unclear places are, by the part of a profile that asks first."""
 
@@ -237,15 +241,23 @@ def needs_of_requirement(requirement: str) -> tuple[Need, ...]:
 
 @functools.cache
 def _parts() -> Mapping[str, tuple[str, ...]]:
-    """The parts of profile extensions that a requirement belongs to, by its id; none in the making."""
+    """The parts of clauses 10.2 to 10.5 that a requirement belongs to, by its id; none in the making."""
     finished = {part: tuple(p for p in claims_of(part) if p not in unfinished_parts()) for part in get_args(Part)}
-    return {r.id: finished[r.part] for r in requirements_of("extensions") if r.part}
+    return {r.id: finished[r.part] for r in load_requirements() if r.part and finished[r.part]}
 
 
 @functools.cache
 def load_capabilities() -> Capabilities:
     """What a vendor may leave out. Raises ``DocumentError``."""
     return read(SUITE / "capabilities.yaml", Capabilities)
+
+
+def capabilities_for(families: Collection[str]) -> tuple[Capability, ...]:
+    """What a vendor can claim for a profile with these ``families`` of requirements (``PARTS``): the parts that belong to them, and
+    those that requirements of theirs name.
+    """
+    named = {part for r in load_requirements() if r.profile in families for part in claims_of(r.part)}
+    return tuple(c for c in load_capabilities().capabilities if c.profile in families or c.id in named)
 
 
 @functools.cache

@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ucm_cts.harness.catalogue.requirements import (
-    Capability,
-    Interpretation,
-    declarable,
-    load_capabilities,
-)
+from ucm_cts.harness.catalogue.requirements import Capability, Interpretation, capabilities_for, declarable
 from ucm_cts.harness.results.statement import IXIT, Quantity, Statement
 
 
@@ -18,7 +13,7 @@ from ucm_cts.harness.results.statement import IXIT, Quantity, Statement
 class Stated:
     """Everything of a statement that concerns one profile.
 
-    ``parts``: each part of the platform, and whether it is claimed.
+    ``parts``: each part of the platform, and whether it is claimed; of parts of another profile those that are claimed.
     ``options``: each option, its value, the values that were observed, and its interpretation.
     ``quantities``: each quantity of the IXIT, its value, and its definition.
     """
@@ -30,18 +25,18 @@ class Stated:
 
 def stated(statement: Statement, readings: Mapping[str, tuple[str, ...]], profiles: tuple[str, ...]) -> Stated:
     """What ``statement`` says as far as it concerns the ``profiles``, and the ``readings`` that were observed."""
-    core = "core" in profiles
+    claims = {c: statement.capabilities.get(c.id, c.profile == "core") for c in capabilities_for(profiles)}
     return Stated(
-        [
-            (c, statement.capabilities.get(c.id, c.profile == "core"))
-            for c in load_capabilities().capabilities
-            if core and c.profile in profiles
-        ],
+        [(c, claimed) for c, claimed in claims.items() if claimed or c.profile in profiles],
         [
             (option, statement.readings.get(option, values[0]), readings.get(option, ()), entry)
             for entry in declarable()
             if entry.profile in profiles
             for option, values in entry.options.items()
         ],
-        [(name, statement.ixit.get(name, quantity.default), quantity) for name, quantity in IXIT.items() if core],
+        [
+            (name, statement.ixit.get(name, quantity.default), quantity)
+            for name, quantity in IXIT.items()
+            if "core" in profiles
+        ],
     )

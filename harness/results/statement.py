@@ -106,6 +106,10 @@ class Statement(Value, frozen=True):
         """Every reading, as ``option=value``."""
         return tuple(f"{option}={value}" for option, value in self.readings.items())
 
+    def value_of(self, name: str) -> str:
+        """What is stated of ``name``, a capability or an option."""
+        return self.readings[name] if name in self.readings else str(self.capabilities[name]).lower()
+
     @property
     def extensions(self) -> tuple[str, ...]:
         """The parts of 10.2 to 10.5 that are claimed."""

@@ -20,8 +20,9 @@ from ucm_cts.harness.selftest.consulted import consulted_for
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign, ToolChainPlan
 from ucm_cts.harness.toolchains.commands.processing import InProcess
+from ucm_cts.harness.toolchains.corpus.documentation import PART
 from ucm_cts.harness.toolchains.examinations import examination_for
-from ucm_cts.harness.toolchains.generation import mapping_models
+from ucm_cts.harness.toolchains.generation import documentation_models, mapping_models
 from ucm_cts.harness.toolchains.renaming import Renaming
 
 _REFERENCE = replace(reference(), read=functools.lru_cache(8192)(read_model))
@@ -61,7 +62,7 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     known: Mapping[str, Mutant | Variant] = {**mutants(), **variants()}
     derived = known[subject.name]
     profile = _PROFILES[derived.task]
-    statement = declaring(derived.declares)
+    statement = declaring(derived.declares, derived.claims)
     program = derived.derive(_REFERENCE)
     kills: dict[str, Kill] = {}
     models = 0
@@ -94,10 +95,12 @@ def _batches(derived: Mutant | Variant, program: Program) -> list[tuple[str, ...
 
     What a generator makes as the reference tool chain makes it has been judged there. Of what it makes otherwise a mutant gets
     some after others, until it is found out; a variant gets the smallest and the largest ones, and of each option that it
-    declares models whose comparison depends on that.
+    declares models whose comparison depends on that. Whoever claims the standard properties gets the models about these.
     """
     if derived.task == "check":
         return [None]
+    if PART in derived.claims:
+        return [tuple(documentation_models())]
     names = [
         name
         for name, text in mapping_models().items()
@@ -131,11 +134,12 @@ def _usual(task: str, text: str) -> object:
     return _made(_REFERENCE, task, text)
 
 
-def declaring(readings: tuple[str, ...]) -> Statement:
-    """What holds without a statement, but for ``readings`` (``option=value``)."""
+def declaring(readings: tuple[str, ...], claims: tuple[str, ...] = ()) -> Statement:
+    """What holds without a statement, but for ``readings`` (``option=value``) and ``claims`` of parts."""
     default = default_statement()
     declared = dict(reading.split("=", 1) for reading in readings)
-    return msgspec.structs.replace(default, readings=default.readings | declared)
+    capabilities = default.capabilities | dict.fromkeys(claims, True)
+    return msgspec.structs.replace(default, readings=default.readings | declared, capabilities=capabilities)
 
 
 def _kill(result: RequirementResult) -> Kill:

@@ -131,8 +131,8 @@ _WITH_MODELS = "core-models=shipped"
 
 
 def _shown(need: str, statement: Statement) -> str:
-    option = need.partition("=")[0]
-    return f"{option} = {statement.readings[option]}" if option != need else f"{need} = false"
+    name = need.partition("=")[0]
+    return f"{name} = {statement.value_of(name)}"
 
 
 def _unmet(need: Need, statement: Statement) -> Iterator[tuple[str, ...]]:

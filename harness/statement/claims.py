@@ -32,7 +32,8 @@ Offers = Mapping[str, Offer]
 def claimed(known: Statement, offers: Offers, wanted: str = "") -> Statement:
     """``known`` without what the adapter does not offer, and with the operations for tests that it offers.
 
-    It claims the profile ``wanted``; if that is empty, all that a vendor of these ``offers`` can claim.
+    It claims the profile ``wanted``; if that is empty, all that a vendor of these ``offers`` can claim. Of parts of 10.2 to 10.5 that no
+    adapter can be asked about it keeps what is known.
     """
     default = default_statement()
     readings = dict(known.readings)
@@ -44,7 +45,11 @@ def claimed(known: Statement, offers: Offers, wanted: str = "") -> Statement:
             readings[name] = "none" if offer.lacking else "hook"
     parts = load_capabilities().capabilities
     capabilities = {p.id: known.capabilities[p.id] and not _lacks(offers, p.id) for p in parts if p.profile == "core"}
-    extended = {p.id: p.id in offers and not offers[p.id].lacking for p in parts if p.profile == "extensions"}
+    extended = {
+        p.id: not offers[p.id].lacking if p.id in offers else known.capabilities[p.id]
+        for p in parts
+        if p.profile == "extensions"
+    }
     whole = all(capabilities.values())
     if wanted:
         profiles = FRAMEWORK_PROFILES[: FRAMEWORK_PROFILES.index(wanted) + 1]

@@ -14,7 +14,7 @@ import msgspec
 import ucm_cts
 from ucm_cts.harness.catalogue.documents import without_waiting
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PARTS, TOOLCHAIN_PROFILES
-from ucm_cts.harness.catalogue.requirements import Interpretation, declarable, load_capabilities
+from ucm_cts.harness.catalogue.requirements import Interpretation, capabilities_for, declarable, load_capabilities
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.statement import HOOKS, IXIT, Statement, default_statement
@@ -111,8 +111,8 @@ def to_toml(statement: Statement, adapter: str, file: str) -> str:
         suite=f"UCM-CTS {ucm_cts.__version__}",
         profiles=profiles,
         of_framework=FRAMEWORK_PROFILES in families,
-        capabilities=[c for c in load_capabilities().capabilities if c.profile == "core"],
-        extensions=[c for c in load_capabilities().capabilities if c.profile == "extensions"],
+        capabilities=[c for c in capabilities_for(parts) if c.profile == "core"],
+        extensions=[c for c in capabilities_for(parts) if c.profile == "extensions"],
         entries=[entry for entry in declarable() if entry.options and entry.profile in parts],
         ixit=IXIT,
     )
@@ -149,14 +149,8 @@ def to_short_toml(
         suite=f"UCM-CTS {ucm_cts.__version__}",
         profiles=family,
         remarks=_remarks(statement, missing, family),
-        capabilities=[
-            c
-            for c in load_capabilities().capabilities
-            if c.profile == "core" and "core" in parts and not statement.capabilities[c.id]
-        ],
-        extensions=[
-            c for c in load_capabilities().capabilities if "extensions" in parts and c.id in statement.extensions
-        ],
+        capabilities=[c for c in capabilities_for(parts) if c.profile == "core" and not statement.capabilities[c.id]],
+        extensions=[c for c in capabilities_for(parts) if c.id in statement.extensions],
         lacking=missing,
         offered=offered,
         different={o: v for o, v in different.items() if o not in offered},

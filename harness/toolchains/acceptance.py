@@ -119,16 +119,16 @@ def _not_applicable(statement: Statement) -> Mapping[str, str]:
     source = f"{statement.source} says" if statement.source else "without a statement it holds that"
     found: dict[str, str] = {}
     for requirement, (what, unmet) in unasked(statement).items():
-        declared = ", ".join(f"{option} = {statement.readings[option]}" for option in sorted(unmet))
+        declared = ", ".join(f"{name} = {statement.value_of(name)}" for name in sorted(unmet))
         found[requirement] = f"{what}: {source} {declared}"
     return found
 
 
 def unasked(statement: Statement) -> Mapping[str, tuple[str, frozenset[str]]]:
-    """The requirements of which nothing is asked, or no broken model: which of both, and the options that are to be declared.
+    """The requirements of which nothing is asked, or no broken model: which of both, and the options, or parts, that are to be declared.
 
     Where legal models are asked all the same, a refusal of one still fails the requirement. A declared reading that accepts what
-    another one refuses is asked in full by its legal models.
+    another one refuses is asked in full by its legal models. Options of a part that is not claimed say nothing.
     """
     asked: dict[tuple[str, Due], list[Question]] = {}
     breakable = {q.requirement for q in questions() if q.due == "refuse"}
@@ -138,7 +138,7 @@ def unasked(statement: Statement) -> Mapping[str, tuple[str, frozenset[str]]]:
             asked.setdefault((q.requirement, q.due), []).append(q)
         elif q.due == "refuse" or q.requirement not in breakable:
             unmet = {need.partition("=")[0] for need in q.under if not statement.meets(need)}
-            options.setdefault(q.requirement, set()).update(unmet)
+            options.setdefault(q.requirement, set()).update(unmet & statement.capabilities.keys() or unmet)
     found: dict[str, tuple[str, frozenset[str]]] = {}
     for requirement, unmet in options.items():
         accepted = asked.get((requirement, "accept"), [])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import fnmatch
 from collections.abc import Mapping
 
+from ucm_cts.harness.catalogue.requirements import load_options
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.acceptance import unasked
 from ucm_cts.harness.toolchains.idl.declared_support import ASKED_OF
@@ -15,7 +16,7 @@ def asked_of_declared() -> Mapping[str, frozenset[str]]:
     """Such options, each with the requirements that are only asked of vendors who declare it."""
     found: dict[str, set[str]] = {}
     for requirement, (_, options) in unasked(default_statement()).items():
-        for option in options:
+        for option in options & load_options().keys():  # not a part that is to be claimed
             found.setdefault(option, set()).add(requirement)
     for pattern, readings in ASKED_OF.items():
         for reading in readings:

@@ -6,20 +6,23 @@ import functools
 from collections.abc import Callable, Collection, Mapping
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.harness.catalogue.requirements import in_the_making
+from ucm_cts.harness.catalogue.requirements import in_the_making, requirements_of
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.statement.applicability import why_not
 from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.commands.description import Command, Task
 from ucm_cts.harness.toolchains.corpus.decoration import DECORATION_OF_CPP, DECORATION_OF_IDL
+from ucm_cts.harness.toolchains.corpus.documentation import DOCUMENTATION, PART
 from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.cpp import applicability
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout, can_be_run
+from ucm_cts.harness.toolchains.cpp.linking import is_code
 from ucm_cts.harness.toolchains.cpp.probes.check import CHECKS, GENERATED, HEADERS
 from ucm_cts.harness.toolchains.differences import Comparison
-from ucm_cts.harness.toolchains.generation import Generation, mapping_models
+from ucm_cts.harness.toolchains.generation import Generation, documentation_models, mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
 from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
 from ucm_cts.harness.toolchains.idl.declared_support import not_applicable
@@ -30,7 +33,13 @@ from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 from ucm_cts.reference_models.mapping.idl.expectations import STANDS_FOR
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
-TOOLCHAIN_CHECKS = {**RULES, **IDL_CHECKS, **CHECKS}
+DOCUMENTATION_CHECKS = {
+    DOCUMENTATION[
+        1
+    ]: "The code that is generated is the same whatever the standard property says of components, comments apart.",
+}
+
+TOOLCHAIN_CHECKS = {**RULES, **IDL_CHECKS, **CHECKS, **DOCUMENTATION_CHECKS}
 """The rules that the catalogue names for tool chains, and what each says."""
 
 
@@ -38,7 +47,8 @@ def stand_for() -> Mapping[str, frozenset[str]]:
     """The requirements that each of them stands for."""
     of_models = {rule: frozenset(q.requirement for q in questions() if RULE_FOR[q.due] == rule) for rule in RULES}
     of_idl = {rule: frozenset(requirements) for rule, requirements in STANDS_FOR.items()}
-    return {**of_models, **of_idl, **applicability.stand_for()}
+    of_documentation = {DOCUMENTATION[1]: frozenset({DOCUMENTATION[0]})}
+    return {**of_models, **of_idl, **applicability.stand_for(), **of_documentation}
 
 
 def examination_for(
@@ -79,7 +89,7 @@ def examination_for(
             renaming,
             expression,
             models,
-            not_applicable(statement),
+            {**not_applicable(statement), **_unclaimed(profile, statement)},
             _may_be_refused(statement, IMPOSSIBLE_IN_IDL),
         )
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
@@ -92,9 +102,12 @@ def examination_for(
     compare = functools.partial(_compare_cpp, standard, statement.readings, how, _compiler(how, sandbox, network))
     if untouched:
         compare = functools.partial(_compare_nothing, standard, statement.readings, untouched)
-    not_asked = applicability.not_applicable(statement)
+    not_asked = {**applicability.not_applicable(statement), **_unclaimed(profile, statement)}
     refusable = _may_be_refused(statement, IMPOSSIBLE_IN_CPP)
-    return Generation(compare, GENERATED, DECORATION_OF_CPP, renaming, expression, models, not_asked, refusable)
+    is_of_cpp = functools.partial(is_code, _layout(how))
+    return Generation(
+        compare, GENERATED, DECORATION_OF_CPP, renaming, expression, models, not_asked, refusable, is_of_cpp
+    )
 
 
 WITH_NATIVES = frozenset({"idl_natives"})
@@ -104,7 +117,15 @@ WITH_NATIVES = frozenset({"idl_natives"})
 def _asked(task: Task, statement: Statement, models: Collection[str] | None) -> Collection[str]:
     """The models that code is generated from, by name."""
     names = frozenset(mapping_models() if models is None else models)
+    if models is None and statement.meets(PART):
+        names |= documentation_models().keys()
     return names if task == "idl" and statement.meets("native-types=supported") else names - WITH_NATIVES
+
+
+def _unclaimed(profile: str, statement: Statement) -> Mapping[str, str]:
+    """The requirements of a part that the vendor does not claim, and who says so."""
+    reasons = {r.id: why_not(r, statement) for r in requirements_of(profile) if r.part}
+    return {requirement: why[1] for requirement, why in reasons.items() if why is not None}
 
 
 IMPOSSIBLE_IN_IDL: Mapping[str, tuple[str, str]] = {
@@ -151,8 +172,11 @@ def _compare_cpp(
     model: Model,
     files: Mapping[str, str],
 ) -> Comparison:
-    layout = Layout(how.include, how.headers, how.sources, how.libraries)
-    return compare_cpp(model, files, standard, readings, compiler, layout)
+    return compare_cpp(model, files, standard, readings, compiler, _layout(how))
+
+
+def _layout(how: Command) -> Layout:
+    return Layout(how.include, how.headers, how.sources, how.libraries)
 
 
 def _compiler(how: Command, sandbox: bool = True, network: bool = True) -> Compiler:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
+import msgspec
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
@@ -14,9 +16,11 @@ from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, FactEvidence
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.commands.processing import Response
 from ucm_cts.harness.toolchains.corpus.decoration import PREFIX, decorated
+from ucm_cts.harness.toolchains.corpus.documentation import DOCUMENTATION, DOCUMENTED, WITHOUT, documented_models
 from ucm_cts.harness.toolchains.cpp.probes.check import HEADERS
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.renaming import Renaming
+from ucm_cts.harness.toolchains.same_code import Piece, first_change, pieces
 from ucm_cts.harness.toolchains.unspecified_spellings import refused_for_spelling
 from ucm_cts.reference_models.findings import Finding
 
@@ -35,9 +39,15 @@ DECORATED = ("interfaces", "ports")
 AROUND = 3
 """Lines of a generated file shown before and after the one that is wrong."""
 
+LONGEST_PIECE = 200
+"""Characters shown of a piece of code."""
+
 
 Compare = Callable[[Model, Mapping[str, str]], Comparison]
 """Holds the files, by name, that were made of a model against what must be in them."""
+
+IsCode = Callable[[str], bool]
+"""Whether the file of this name is code, rather than a document or a description of what to build."""
 
 
 class Generation:
@@ -53,20 +63,24 @@ class Generation:
         only: Collection[str] | None = None,
         not_applicable: Mapping[str, str] = {},
         may_be_refused: Mapping[str, str] = {},
+        is_code: IsCode = lambda name: True,
     ) -> None:
         """``generates`` are the requirement, and its rule, that files can be had of a legal model at all; ``decoration`` are those
         that annotations and comments change nothing. Of the models
         only those of ``only``, if there is such a list, whose name holds a word of ``expression``, or all if none does: then
         only what is said of requirements that hold one of the words. ``not_applicable`` are requirements that do not apply, and why, and
-        ``may_be_refused`` models that a vendor may refuse, by name, and the interpretation that says so.
+        ``may_be_refused`` models that a vendor may refuse, by name, and the interpretation that says so. ``is_code`` is asked of
+        files that are made of documented models.
         """
         self.not_applicable = not_applicable
         self._may_be_refused = may_be_refused
+        self._is_code = is_code
         self._compare = compare
         self._generates = generates
         self._decoration = decoration
         wanted = None if only is None else {*only, *(name.removeprefix(PREFIX) for name in only)}
-        chosen = {name: text for name, text in mapping_models().items() if wanted is None or name in wanted}
+        known = {**mapping_models(), **documentation_models()}
+        chosen = {name: text for name, text in known.items() if wanted is None or name in wanted}
         models = {name: renaming.apply(text) for name, text in chosen.items()}
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         named = {name: text for name, text in models.items() if any(word in name.lower() for word in words)}
@@ -79,14 +93,18 @@ class Generation:
         return tuple(self._texts.items())
 
     def examine(self, name: str, response: Response) -> tuple[Fact, ...]:
-        """The facts that the files of one model show."""
+        """The facts that the files of one model show; those of documented models are compared with each other only."""
+        if name in documentation_models():
+            return ()
         return tuple(fact for fact in self._facts(name, response) if self._is_wanted(fact.requirement))
 
     def judge(self, responses: Mapping[str, Response], shown: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """All facts."""
         misspelt = refused_for_spelling(self._texts, {name: one.accepted for name, one in responses.items()})
         for name in responses:
-            if name in misspelt:
+            if name in documentation_models():
+                yield from self._of_documentation(name, responses, misspelt.get(name, ""))
+            elif name in misspelt:
                 yield Fact(self._generates[0], (name,), undecided=misspelt[name])
             elif name.startswith(PREFIX):
                 yield from self._of_decoration(name, responses[name], shown)
@@ -111,14 +129,44 @@ class Generation:
         evidence = FactEvidence(response.processed, self._texts.get(plain, ""))
         yield Fact(requirement, (plain, name), finding, evidence=evidence)
 
+    def _of_documentation(self, name: str, responses: Mapping[str, Response], misspelt: str) -> Iterator[Fact]:
+        """Whether the files of the model ``name`` hold the code that is made of it without documentation; ``misspelt`` is why a refusal
+        decides nothing.
+        """
+        requirement, rule = DOCUMENTATION
+        if name == WITHOUT or WITHOUT not in responses or not self._is_wanted(requirement):
+            return
+        response = responses[name]
+        before, after = (self._code_of(responses[one]) for one in (WITHOUT, name))
+        undecided = misspelt or _lost(response) or ("" if before else f"no code is made of {WITHOUT}")
+        if undecided:
+            yield Fact(requirement, (WITHOUT, name), undecided=undecided)
+            return
+        change = first_change(before, after)
+        if change is None:
+            yield Fact(requirement, (WITHOUT, name), measure="documented models generated from")
+            return
+        expected = f"the code that is made of {WITHOUT}, which is the same model without documentation"
+        observed = f"{'added' if change.is_new else 'missing'}: {change.piece.text[:LONGEST_PIECE]}"
+        place = (change.piece.file, change.piece.line) if change.is_new else ("", 0)
+        if not after:
+            observed, place = _unmade(response), ("", 0)
+        evidence = _evidence(response, Difference(requirement, rule, "", 0, expected, observed, *place))
+        evidence = msgspec.structs.replace(evidence, twin=self._texts[WITHOUT])
+        finding = Finding(requirement, rule, "documentation", expected, observed)
+        yield Fact(requirement, (WITHOUT, name), finding, evidence=evidence)
+
+    def _code_of(self, response: Response) -> tuple[Piece, ...]:
+        return pieces({name: text for name, text in response.files.items() if self._is_code(name)})
+
     def _is_wanted(self, requirement: str) -> bool:
         return not self._words or any(word in requirement.lower() for word in self._words)
 
     def _facts(self, name: str, response: Response) -> Iterator[Fact]:
         requirement, rule = self._generates
-        incident = response.processed.incident
-        if incident is not None and incident.kind not in FRAMEWORK_INCIDENTS - {"exit"}:
-            yield Fact(requirement, (name,), undecided=f"no answer: {incident.kind}: {incident.detail}")
+        lost = _lost(response)
+        if lost:
+            yield Fact(requirement, (name,), undecided=lost)
             return
         allowed_by = "safe-names" if name.startswith(OPEN) else self._may_be_refused.get(name.removeprefix(PREFIX), "")
         if response.accepted is False and allowed_by:
@@ -126,13 +174,7 @@ class Generation:
             yield Fact(requirement, (name,), undecided=why, leaves_others=True, measure="models that may be refused")
             return
         if not response.accepted or not response.files:
-            observed = (
-                f"{incident.kind}: {incident.detail}"
-                if incident
-                else f"refused: {response.first_line or 'no diagnostic'}"
-            )
-            observed = "no file was written" if response.accepted else observed
-            finding = Finding(requirement, rule, name, "files are made of this legal model", observed)
+            finding = Finding(requirement, rule, name, "files are made of this legal model", _unmade(response))
             yield Fact(requirement, (name,), finding, evidence=FactEvidence(response.processed))
             return
         yield Fact(requirement, (name,), measure="models generated from")
@@ -164,6 +206,22 @@ class Generation:
         return Finding(difference.requirement, difference.rule, cause, expected, difference.observed)
 
 
+def _lost(response: Response) -> str:
+    """Why ``response`` decides nothing, which is not the tool chain's doing; empty if it is an answer."""
+    incident = response.processed.incident
+    if incident is None or incident.kind in FRAMEWORK_INCIDENTS - {"exit"}:
+        return ""
+    return f"no answer: {incident.kind}: {incident.detail}"
+
+
+def _unmade(response: Response) -> str:
+    """Why no files were made of a model."""
+    incident = response.processed.incident
+    if response.accepted:
+        return "no file was written"
+    return f"{incident.kind}: {incident.detail}" if incident else f"refused: {response.first_line or 'no diagnostic'}"
+
+
 def _validity_of(comparison: Comparison) -> Comparison:
     """What ``comparison`` says of the files as such."""
     differences = tuple(one for one in comparison.differences if one.requirement in VALID)
@@ -178,6 +236,12 @@ def mapping_models() -> dict[str, str]:
     plain = {name: etree.tostring(etree.fromstring(text.encode()), encoding="unicode") for name, text in texts.items()}
     plain |= {f"{PREFIX}{name}": decorated(plain[name]) for name in DECORATED}
     return dict(sorted(plain.items(), key=lambda item: len(item[1])))
+
+
+@functools.cache
+def documentation_models() -> Mapping[str, str]:
+    """The models of which the same code must come, for those who claim the standard properties (10.2), by name."""
+    return documented_models(mapping_models()[DOCUMENTED])
 
 
 def _evidence(response: Response, difference: Difference) -> FactEvidence:

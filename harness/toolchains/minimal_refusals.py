@@ -61,6 +61,6 @@ def _shape(attribute: str, value: str) -> str:
     if attribute in _LITERALS and not (":" in value or "." in value):
         return value
     if value.lstrip("+-").isdecimal():
-        return "negative" if value.startswith("-") else "0" if int(value) == 0 else "number"
+        return "negative" if value.startswith("-") else "number" if value.strip("+-0") else "0"
     signs = "".join(sign for sign in ("::", ".", "-", '"', "'", " ") if sign in value)
     return ("root " if value.startswith("::") else "") + (signs or ("name" if value else "nothing"))

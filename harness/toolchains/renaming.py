@@ -11,7 +11,6 @@ import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 from lxml import etree
 
@@ -91,7 +90,7 @@ class Renaming:
 
 def drawn_name(name: str, seed: int) -> str:
     """``name`` as a tool chain sees it in the run of ``seed``; those that differ in case only still do."""
-    if not name.strip() or name in _WORDS or name in printed_names():
+    if not name.strip() or name in _WORDS or name.lower() in _printed_in_any_case():
         return name
     digest = hashlib.blake2b(f"{seed}:{name.lower()}".encode(), digest_size=4).digest()
     letters = "".join("abcdefghijklmnopqrstuvwxyz"[byte % 26] for byte in digest)
@@ -100,12 +99,18 @@ def drawn_name(name: str, seed: int) -> str:
 
 @functools.cache
 def printed_names() -> frozenset[str]:
-    """The names of core definitions (10.1): a tool chain may know them."""
+    """The names of core definitions (10.1) and of the standard property (10.2): a tool chain may know them."""
+    models = SUITE / "models"
     found: set[str] = set()
-    for path in sorted(Path(SUITE / "models" / "core").glob("*.xml")):
+    for path in (*sorted(models.glob("core/*.xml")), models / "extensions" / "standard_properties.xml"):
         for element in etree.parse(path).iter(etree.Element):
             found.add(str(element.get("name", "")))
     return frozenset(found)
+
+
+@functools.cache
+def _printed_in_any_case() -> frozenset[str]:
+    return frozenset(name.lower() for name in printed_names())
 
 
 def _rename(element: etree._Element, seed: int) -> None:

@@ -348,6 +348,18 @@ def test_toolchain_guide(here: Path) -> None:
     assert described == fields - {"folder", "source", "tags", "attributes", "literals"}
 
 
+def test_standard_properties_guide(here: Path) -> None:
+    write_files("docs/standard-properties.md")
+    runs = [command for command in commands("ucm-cts run") if "documenting-ics.toml" in command]
+    asked: dict[str, list[str]] = {}
+    for command in runs:
+        outcome = ucm_cts(*shlex.split(command)[1:])
+        assert (outcome.status, outcome.err) == (0, "")
+        report = report_of(here / "ucm-cts-report")
+        asked[report["profile"]] = [r["id"] for r in report["requirements"] if r["verdict"] == "pass"]
+    assert asked == {"pim": ["R-10.2-10", "R-10.2-11", "R-10.2-12"], "idl": ["R-10.2-13"]}
+
+
 @pytest.mark.slow
 def test_python_guide(here: Path) -> None:
     write_files("docs/adapter-python.md")

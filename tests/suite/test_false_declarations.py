@@ -105,7 +105,7 @@ def test_a_checker_that_does_otherwise_than_declared_is_found_out(case: False_) 
 def failing(case: False_, expression: str = "") -> list[str]:
     """The requirements that a checker fails; ``expression`` selects models."""
     others = [one for one in case.subject.declares if not one.startswith(f"{case.option}=")]
-    statement = declaring((*others, f"{case.option}={case.declared}"))
+    statement = declaring((*others, f"{case.option}={case.declared}"), case.subject.claims)
     examination = examination_for("pim", statement, Renaming(), expression)
     program = InProcess(case.subject.derive(REFERENCE))
     campaign = ToolChainCampaign(program, examination, ToolChainPlan(case.subject.name, "", "pim", statement, jobs=1))

@@ -12,7 +12,10 @@ REQUIREMENTS = {r.id: r for r in load_requirements()}
 CORE_REQUIREMENTS = [r for r in load_requirements() if r.profile == "core" and not r.untestable]
 PARTS = [capability.id for capability in load_capabilities().capabilities if capability.profile == "core"]
 """Those of 10.1."""
-EXTENSIONS = [capability.id for capability in load_capabilities().capabilities if capability.profile == "extensions"]
+UNASKED = ["properties"]
+"""Those of 10.2 to 10.5 about which no adapter can be asked."""
+EXTENSIONS = [c.id for c in load_capabilities().capabilities if c.profile == "extensions" and c.id not in UNASKED]
+"""Those about which adapters are asked."""
 ASKED = {
     "unknown-policy": "refused",
     "incompatible-ends": "refused",

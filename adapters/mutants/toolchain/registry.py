@@ -33,6 +33,7 @@ class Mutant:
     ``derive``: makes it from the reference tool chain.
     ``also``: requirements that the same defect may break besides.
     ``declares``: the readings (``option=value``) that it claims.
+    ``claims``: the parts of 10.2 to 10.5 that it claims.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Mutant:
     derive: Derive
     also: tuple[str, ...] = ()
     declares: tuple[str, ...] = ()
+    claims: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,7 @@ class Variant:
     task: str
     derive: Derive
     declares: tuple[str, ...] = ()
+    claims: tuple[str, ...] = ()
 
 
 MUTANTS: dict[str, Mutant] = {}
@@ -58,26 +61,32 @@ VARIANTS: dict[str, Variant] = {}
 
 
 def breaks(
-    *requirements: str, task: str = "check", also: tuple[str, ...] = (), declares: tuple[str, ...] = ()
+    *requirements: str,
+    task: str = "check",
+    also: tuple[str, ...] = (),
+    declares: tuple[str, ...] = (),
+    claims: tuple[str, ...] = (),
 ) -> Callable[[Derive], Derive]:
     """Register a function as a mutant that breaks ``requirements``; its docstring says what it does wrong."""
 
     def register(derive: Derive) -> Derive:
         name = derive.__name__
         assert name not in MUTANTS, f"two mutants are called {name}"
-        MUTANTS[name] = Mutant(name, requirements, task, derive, also, declares)
+        MUTANTS[name] = Mutant(name, requirements, task, derive, also, declares, claims)
         return derive
 
     return register
 
 
-def variant(*, task: str = "check", declares: tuple[str, ...] = ()) -> Callable[[Derive], Derive]:
+def variant(
+    *, task: str = "check", declares: tuple[str, ...] = (), claims: tuple[str, ...] = ()
+) -> Callable[[Derive], Derive]:
     """Register a function as a conformant variant; its docstring says which freedom it uses."""
 
     def register(derive: Derive) -> Derive:
         name = derive.__name__
         assert name not in VARIANTS, f"two variants are called {name}"
-        VARIANTS[name] = Variant(name, task, derive, declares)
+        VARIANTS[name] = Variant(name, task, derive, declares, claims)
         return derive
 
     return register

@@ -39,8 +39,9 @@ class Case(Value, frozen=True):
 
 @functools.cache
 def load_cases() -> tuple[Case, ...]:
-    """All cases, file by file. Raises ``DocumentError``."""
-    return tuple(case for path in sorted(CASES.glob("*.yaml")) for case in read_cases(path))
+    """All cases, clause by clause. Raises ``DocumentError``."""
+    paths = sorted(CASES.glob("*.yaml"), key=lambda path: (int(path.name.partition("_")[0]), path.name))
+    return tuple(case for path in paths for case in read_cases(path))
 
 
 def read_cases(path: Path) -> list[Case]:

@@ -81,7 +81,8 @@ def _whole_models() -> Iterator[Question]:
 
 def _misplaced(legal: Sequence[Question]) -> Iterator[Question]:
     """Elements where the meta-model has no room for them."""
-    models = [Legal(q.name, q.text, q.under) for q in legal if q.due == "accept" and not q.twin]
+    of_all = [q for q in legal if all("=" in need for need in q.under)]  # not those of a part that is to be claimed
+    models = [Legal(q.name, q.text, q.under) for q in of_all if q.due == "accept" and not q.twin]
     for one in misplaced(models):
         changed = differing_lines(one.twin.text, one.text)
         under = (*one.twin.under, *UNDER)

@@ -12,6 +12,7 @@ from ucm_cts.harness.toolchains.cpp.compiling import (
     Compiled,
     Compiler,
     Headers,
+    Layout,
     NoCompiler,
     compile_text,
     read_errors,
@@ -55,6 +56,12 @@ def linked(headers: Headers, standard: str, compiler: Compiler, folder: Path) ->
 def matches(name: str, pattern: str) -> bool:
     """Whether the file ``name`` fits ``pattern``, whose ``**/`` at the beginning stands for no folder, too."""
     return fnmatch.fnmatchcase(name, pattern) or fnmatch.fnmatchcase(name, pattern.removeprefix("**/"))
+
+
+def is_code(layout: Layout, name: str) -> bool:
+    """Whether the generated file ``name`` is a header or a source file by ``layout``."""
+    sources = layout.sources if layout.sources is not None else tuple(f"**/*{suffix}" for suffix in SUFFIXES)
+    return any(matches(name, pattern) for pattern in (*layout.headers, *sources))
 
 
 def in_two_units(

@@ -152,6 +152,12 @@ def test_constants_that_grow_or_circle_come_to_an_end() -> None:
         fit("+".join("1" * 400), "long_t", HERE)
 
 
+def test_strings_have_any_length() -> None:
+    assert parsed(f'"{"a" * 100_000}"') == ("a" * 100_000, True)
+    with pytest.raises(NotAConstant):
+        parsed(f'"{"a" * 100_000}" {"+ 1" * LONGEST}')
+
+
 @given(st.sampled_from(sorted(INTEGER_RANGES)), st.data())
 @settings(max_examples=60, deadline=None)
 def test_integers_fit_exactly_within_their_range(kind: str, data: st.DataObject) -> None:

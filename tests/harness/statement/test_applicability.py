@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from statements import CORE_REQUIREMENTS, EVERYTHING, EXTENSIONS, PARTS, REQUIREMENTS, stating
+from statements import CORE_REQUIREMENTS, EVERYTHING, EXTENSIONS, PARTS, REQUIREMENTS, UNASKED, stating
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options, load_requirements
@@ -32,7 +32,7 @@ def test_needs_name_existing_capabilities_and_readings() -> None:
 
 
 def test_everything_applies_if_everything_is_claimed() -> None:
-    everything = stating(dict.fromkeys(EXTENSIONS, True), readings={"pending-value": "per-writer"})
+    everything = stating(dict.fromkeys((*EXTENSIONS, *UNASKED), True), readings={"pending-value": "per-writer"})
     assert [r.id for r in load_requirements() if why_not(r, everything)] == []
     assert lacking_claims(everything, "core") == {}
     readings = tuple(f"{option}={value}" for option, value in EVERYTHING.items())

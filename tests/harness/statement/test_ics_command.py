@@ -12,7 +12,7 @@ import msgspec
 import pytest
 from command_line import report_of, ucm_cts
 from lxml import etree
-from statements import ADAPTER, CORE_REQUIREMENTS, EXTENSIONS, PARTS, REQUIREMENTS, stating
+from statements import ADAPTER, CORE_REQUIREMENTS, EXTENSIONS, PARTS, REQUIREMENTS, UNASKED, stating
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import PROTOCOL, Welcome
@@ -23,7 +23,7 @@ from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.models.core_models import compare
 from ucm_cts.harness.results.statement import HOOKS, default_statement
 from ucm_cts.harness.statement.applicability import lines_for
-from ucm_cts.harness.statement.claims import claimed
+from ucm_cts.harness.statement.claims import Offer, claimed
 from ucm_cts.harness.statement.files import check_subject, read_statement, stated_by
 from ucm_cts.harness.statement.writing import Wanted, to_short_toml, write_statement
 
@@ -53,7 +53,7 @@ def test_what_a_loaded_machine_shows_once_is_asked_again(here: Path) -> None:
     assert (here / "made").stat().st_size == 3, "it waited for ever, then in vain, and then answered"
     statement = read_statement(here / "ucm-cts-ics.toml")
     assert statement.profiles == FRAMEWORK_PROFILES
-    assert all(statement.capabilities.values())
+    assert [part for part, is_claimed in statement.capabilities.items() if not is_claimed] == UNASKED
 
 
 def test_a_short_statement_has_what_differs_and_what_must_be_decided(here: Path) -> None:
@@ -93,6 +93,15 @@ def test_a_short_statement_says_all_that_is_declared() -> None:
     assert msgspec.structs.replace(read_statement(path), source="") == whole
     assert "TO DECIDE" not in path.read_text()
     assert to_short_toml(default_statement(), "adapter", "ics.toml").count("\n[") == 2, "readings and models"
+
+
+def test_what_no_adapter_can_be_asked_about_is_claimed_as_the_published_statement_does() -> None:
+    offers = dict.fromkeys(EXTENSIONS, Offer())
+    for published in (False, True):
+        known = stating(dict.fromkeys(UNASKED, published))
+        assert {part: claimed(known, offers).capabilities[part] for part in UNASKED} == dict.fromkeys(
+            UNASKED, published
+        )
 
 
 @pytest.mark.parametrize("full", [False, True])

@@ -40,10 +40,10 @@ class Preprocessed:
 def preprocessed(files: Mapping[str, str]) -> Preprocessed:
     """What is left of ``files`` (name to text), which may include one another. Never raises."""
     done = Preprocessed()
-    lines: dict[str, list[_Line]] = {}
+    lines: dict[str, list[Line]] = {}
     for name, text in files.items():
         try:
-            lines[name] = list(_lines(without_comments(text, name)))
+            lines[name] = list(logical_lines(without_comments(text, name)))
         except NotIdl as error:
             done.problems[name] = error.problem
     expander = Expander()
@@ -80,7 +80,7 @@ def without_comments(text: str, file: str = "") -> str:
 
 
 @dataclass(frozen=True)
-class _Line:
+class Line:
     """A line of text with those that go on with it."""
 
     number: int
@@ -92,7 +92,7 @@ class _Line:
 _DIRECTIVE = re.compile(r"\s*#\s*([^\W\d]\w*)?(.*)", re.DOTALL)
 
 
-def _lines(text: str) -> Iterator[_Line]:
+def logical_lines(text: str) -> Iterator[Line]:
     """The logical lines of ``text``: a directive may go on over several, as may a comment."""
     pending: list[str] = []
     physical = text.split("\n")
@@ -104,15 +104,15 @@ def _lines(text: str) -> Iterator[_Line]:
         found = _DIRECTIVE.match(whole)
         first = number - len(pending)
         if found:
-            yield _Line(
+            yield Line(
                 first, "\n" * len(pending), found[1] or "#", found[2].replace(" \n", " ").replace("\n", " ").strip()
             )
         else:
-            yield _Line(first, whole)
+            yield Line(first, whole)
         pending = []
 
 
-def _outermost_first(files: Mapping[str, list[_Line]]) -> list[str]:
+def _outermost_first(files: Mapping[str, list[Line]]) -> list[str]:
     """The names of ``files``, those that others include after these, so that they are seen as they are included."""
     includes = {name: set(_named(lines, name, files)) - {name} for name, lines in files.items()}
     included = {other for others in includes.values() for other in others}
@@ -136,7 +136,7 @@ def _reached(begin: list[str], includes: Mapping[str, set[str]]) -> set[str]:
 _TARGET = re.compile(r"\s*[\"<]([^\">\n]+)[\">]")
 
 
-def _named(lines: list[_Line], name: str, files: Mapping[str, object]) -> Iterator[str]:
+def _named(lines: list[Line], name: str, files: Mapping[str, object]) -> Iterator[str]:
     """The files that ``name`` includes, if all branches are taken."""
     for line in lines:
         target = _TARGET.match(line.operand) if line.directive == "include" else None
@@ -172,7 +172,7 @@ class _Unit:
     """A file with all that it includes: macros go on from one to the next."""
 
     def __init__(
-        self, files: Mapping[str, list[_Line]], done: Preprocessed, expander: Expander, left: list[int]
+        self, files: Mapping[str, list[Line]], done: Preprocessed, expander: Expander, left: list[int]
     ) -> None:
         self._files = files
         self._done = done
@@ -210,14 +210,14 @@ class _Unit:
 
     def _read(self, name: str, pieces: list[str], includes: list[tuple[int, str]]) -> Iterator[str]:
         branches: list[_Branch] = []
-        waiting: list[_Line] = []
+        waiting: list[Line] = []
         for line in self._files[name]:
             self._left[0] -= len(line.text) + len(line.operand) + 1
             if self._left[0] < 0:
                 raise NotIdl(Problem(name, line.number, 1, "the files include more text than this suite reads"))
             active = not branches or branches[-1].active
             if not line.directive:
-                waiting.append(line if active else _Line(line.number, "\n" * line.text.count("\n")))
+                waiting.append(line if active else Line(line.number, "\n" * line.text.count("\n")))
                 continue
             pieces += self._plain(name, waiting)
             waiting = []
@@ -235,7 +235,7 @@ class _Unit:
         if branches:
             raise NotIdl(Problem(name, branches[-1].line, 1, "this condition does not end; write #endif"))
 
-    def _plain(self, name: str, lines: list[_Line]) -> list[str]:
+    def _plain(self, name: str, lines: list[Line]) -> list[str]:
         """What macros make of text between two directives."""
         if not lines:
             return []
@@ -245,7 +245,7 @@ class _Unit:
         except Refused as refused:
             raise NotIdl(Problem(name, lines[0].number, 1, f"in the text that begins here, {refused}")) from None
 
-    def _condition(self, line: _Line, branches: list[_Branch], active: bool) -> bool:
+    def _condition(self, line: Line, branches: list[_Branch], active: bool) -> bool:
         """Whether ``line`` begins, changes or ends a branch, which is done."""
         what = line.directive
         if what in ("if", "ifdef", "ifndef"):
@@ -265,7 +265,7 @@ class _Unit:
         branch.last = what == "else"
         return True
 
-    def _holds(self, line: _Line) -> bool:
+    def _holds(self, line: Line) -> bool:
         if line.directive.endswith("def"):
             name = re.match(r"[^\W\d]\w*", line.operand)
             if name is None:
@@ -273,7 +273,7 @@ class _Unit:
             return (name[0] in self._macros) != line.directive.endswith("ndef")
         return holds(line.operand, self._macros, self._expander)
 
-    def _directive(self, line: _Line) -> None:
+    def _directive(self, line: Line) -> None:
         """Do what a directive says. Those that are for compilers, or unknown, say nothing here."""
         match line.directive:
             case "define":
@@ -284,7 +284,7 @@ class _Unit:
             case "error":
                 raise Refused(f"#error {line.operand[:100]}".rstrip())
 
-    def _included(self, file: str, line: _Line, includes: list[tuple[int, str]]) -> Iterator[str]:
+    def _included(self, file: str, line: Line, includes: list[tuple[int, str]]) -> Iterator[str]:
         """The file that ``line`` includes, if it is there and not read yet: each file once, with and without a guard."""
         target = _TARGET.match(line.operand) or _TARGET.match(self._expander.expanded(line.operand, self._macros))
         if target is None:

@@ -60,7 +60,7 @@ _DEEPEST = 100
 """Signs and parentheses that may stand inside one another."""
 
 LONGEST = 1000
-"""The greatest number of characters of a checked value."""
+"""The greatest number of characters of a checked value, beside those of strings: these may have any length (10.2)."""
 
 
 def parsed(text: str) -> Expression:
@@ -72,16 +72,17 @@ class _Parser:
     """Reads one value, from the left."""
 
     def __init__(self, text: str) -> None:
-        if len(text) > LONGEST:
-            raise NotAConstant(f"it is longer than {LONGEST} characters")
         self._tokens: list[tuple[str, str]] = []
         self._at = 0
         self._depth = 0
-        position, text = 0, text.rstrip()
+        position, others, text = 0, 0, text.rstrip()
         while position < len(text):
             match = _TOKEN.match(text, position)
             if match is None:
                 raise NotAConstant(f"'{text[position : position + 20].strip()}' is nothing in IDL")
+            others += match.end() - position if match.lastgroup != "string" else 0
+            if others > LONGEST:
+                raise NotAConstant(f"it is longer than {LONGEST} characters")
             self._tokens.append((match.lastgroup or "", match[match.lastgroup or 0]))
             position = match.end()
 
