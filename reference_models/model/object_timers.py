@@ -102,6 +102,7 @@ class _Reading:
             earlier = []
         if not here and not earlier:
             return
+        callback.may_be_earlier = bool(earlier)
         timer = self._whose(callback, [*earlier, *here])
         if timer is None:
             callback.is_open = callback.stranger is None

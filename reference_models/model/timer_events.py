@@ -69,6 +69,7 @@ class TimerCallback:
     ``timer``: the timer that it belongs to; None if there is none.
     ``is_open``: it may belong to several timers.
     ``stranger``: the waiting timer of another handler that it was given, by its identifier.
+    ``may_be_earlier``: a timer of an earlier phase may be the one.
     ``id``: what the object timer that it was given said its identifier is; None if it was not asked.
     """
 
@@ -76,6 +77,7 @@ class TimerCallback:
     timer: Timer | None = None
     is_open: bool = False
     stranger: Timer | None = None
+    may_be_earlier: bool = False
     id: Datum | None = None
 
     @property

@@ -243,7 +243,7 @@ def rounds_tell(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if timer is None or not isinstance(told, int) or not timer.has_usual_times or not is_judged:
                 continue
             seen.append((phase, call, timer))
-            explained = {reading for reading, value in _readings_of_rounds(timer, call) if value == told}
+            explained = {reading for reading, value in _readings_of_rounds(runtime, timer, call) if value == told}
             declared = runtime.ics.reading("rounds-attribute")
             if not fitting & explained or declared not in ("observed", *explained):
                 yield check.fail(
@@ -265,8 +265,10 @@ def _done(timer: Timer, n: int) -> int:
     return sum(callback.n < n for callback in timer.callbacks)
 
 
-def _readings_of_rounds(timer: Timer, call: MethodCall) -> Iterator[tuple[str, int]]:
-    """What the attribute may be under each reading: a trigger under way may be counted or not, and a cancelled timer may have none left."""
+def _readings_of_rounds(runtime: ObservedRuntime, timer: Timer, call: MethodCall) -> Iterator[tuple[str, int]]:
+    """What the attribute may be under each reading: a trigger that is under way, or due, may be counted or not, and a cancelled timer may
+    have none left.
+    """
     most = timer.max_rounds or 1
     yield "requested", most
     if timer.max_rounds is None:
@@ -274,7 +276,10 @@ def _readings_of_rounds(timer: Timer, call: MethodCall) -> Iterator[tuple[str, i
     under_way = any(
         c.n < call.over and not (c.execution.over and c.execution.end < call.request.n) for c in timer.callbacks
     )
-    for done in range(_done(timer, call.request.n) - under_way, _done(timer, call.over) + 1):
+    until = _done(timer, call.over)
+    while until < most and call.reply is not None and (earliest(runtime, timer, until) or call.reply.t) <= call.reply.t:
+        until += 1
+    for done in range(_done(timer, call.request.n) - under_way, until + 1):
         yield "done", done
         yield "left", most - done
     if timer.cancels:

@@ -85,7 +85,7 @@ def answer_of(runtime: ObservedRuntime, timer: Timer, call: MethodCall) -> DueAn
         return False if is_sure else "unknown"
     cancel = timer.cancelled
     if cancel is None:
-        return "open"
+        return "unknown"  # it had expired when somebody cancelled it
     due = earliest(runtime, timer, len([c for c in timer.callbacks if c.n < cancel.request.n]))
     while_waiting = cancel.reply is not None and not cancel.reply.failed and due is not None and cancel.reply.t < due
     return True if while_waiting and cancel.over < call.request.n else "unknown"
@@ -144,7 +144,8 @@ def _after_restart(
 ) -> Conclusions:
     waiting = [timer for timer in waiting if not _is_touched(timer, later)]
     resumed = [c for c in later.resumed if c.timer in waiting]
-    dues = [due for t in waiting if (due := latest(runtime, t, len(t.callbacks))) is not None]
+    stood = later.of.started.t - phase.of.ended_at  # a timer may go on with the rest of its time
+    dues = [due + stood for t in waiting if (due := latest(runtime, t, len(t.callbacks))) is not None]
     is_over = any(max(due, later.of.started.t + lateness(runtime)) < later.of.ended_at for due in dues)
     if not resumed and not is_over:
         return

@@ -152,8 +152,8 @@ def _takes(
 ) -> Conclusions:
     """Is ``value``, which is what the timer did, permitted for ``option``? ``due`` is until when that was to be seen."""
     free = None if due is None else free_after(runtime, timer, due, timer.until[1])
-    if free is not None and free != due and timer.rate is not None:
-        free += timer.rate.lasts  # the first one may have been left out
+    if free != due and timer.rate is not None and not timer.callbacks:
+        return  # the first ones may have been left out
     if due is None or free is None or (free + lateness(runtime) > timer.until[1] and not timer.callbacks):
         return
     if not (yield from takes(runtime, option, value)):

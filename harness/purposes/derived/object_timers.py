@@ -131,7 +131,7 @@ def _asked() -> TestPurpose:
         s.CallMethod(own_call.port, own_call.method, given=2, on=s.TimerFrom(s.ON_TRIGGER, 1)) for own_call in ASKS
     )
     later = scheduling(repeated(0.2, 0.3, 4, 1), *handed)
-    cases.append(("repeated", alone(later, tell(1), after(0.1), tell(2), after(0.7), tell(2))))
+    cases.append(("repeated", alone(later, tell(1), s.Pause(350), tell(2), after(0.9), tell(2))))
     return _about("asked", "01 24 29 30 33", *cases)
 
 
