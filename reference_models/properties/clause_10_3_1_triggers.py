@@ -32,7 +32,7 @@ def rounds_are_bounded(check: Property, runtime: ObservedRuntime) -> Conclusions
             if timer.max_rounds is None or timer.rate is None or timer.is_contested:
                 continue
             if timer.max_rounds == 0:
-                yield from _no_rounds(check, runtime, timer)
+                yield from _no_rounds(check, runtime, timer) if not timer.has_no_delay else ()
             elif len(timer.callbacks) > timer.max_rounds:
                 yield check.fail(
                     "too many",
@@ -241,6 +241,9 @@ def _readings_of_delta(runtime: ObservedRuntime, timer: Timer, number: int, told
     if due is None or timer.is_in_startup or told.lasts <= max(0, callback.t - due) + tolerance:
         fitting.add("lateness")
     asked = [timer.delay] if timer.rate is None else [timer.rate, *([] if number else [timer.delay])]
-    if any(told.lasts == one.lasts for one in asked):
+    times = [one.lasts for one in asked]
+    if timer.rate is not None and not number:
+        times.append(timer.delay.lasts + timer.rate.lasts)  # first-repeated-trigger=delay-plus-interval
+    if any(abs(told.lasts - one) <= granularity(runtime) for one in times):
         fitting.add("requested")
     return fitting

@@ -128,8 +128,15 @@ def _periodic() -> TestPurpose:
 
 def _cancel() -> TestPurpose:
     """One of three is cancelled; a number is asked for before and after; cancelled numbers are started anew."""
-    three = (sporadic(1, 1, 1), sporadic(2, 1, 1), periodic(3, 1, 1, 1), cancel(2, 2))
-    cases = [("one of three", alone(timed(*three), tell(1), s.Pause(200), tell(2), after(2)))]
+    three = (
+        sporadic(1, 1, 1),
+        sporadic(2, 1, 1),
+        periodic(3, 1, 1, 1),
+        cancel(2, 2),
+        is_canceled(1, 3),
+        is_canceled(3, 3),
+    )
+    cases = [("one of three", alone(timed(*three), tell(1), s.Pause(200), tell(2), tell(3), after(2)))]
     asked = (is_canceled(5, 3), is_canceled(6, 3))
     orders = (sporadic(5, 1, 1), periodic(6, 1, 1, 1), cancel(5, 2), cancel(6, 2), *asked)
     steps = (tell(1), tell(3), tell(2), tell(3), s.Pause(100), tell(1), tell(3), after(2), tell(2), tell(3), after(1))
