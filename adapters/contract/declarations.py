@@ -11,7 +11,14 @@ from ucm_cts.adapters.contract import platform_interfaces as platform
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.execution_policies import *  # their names are names of this module, too
 from ucm_cts.adapters.contract.timers import *
-from ucm_cts.adapters.contract.timers import INDEX_TIMERS, TIMER_METHODS, TIMER_SERVICE
+from ucm_cts.adapters.contract.timers import (
+    INDEX_TIMERS,
+    OBJECT_TIMER_METHODS,
+    OBJECT_TIMERS,
+    TIMER_METHODS,
+    TIMER_SCHEDULER,
+    TIMER_SERVICE,
+)
 from ucm_cts.adapters.contract.traits import Names
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
@@ -88,8 +95,19 @@ class FromClock(Value, frozen=True):
     method: MethodName
 
 
+class TimerFrom(Value, frozen=True):
+    """An object timer of 10.3.1 that a body was given before.
+
+    ``method``: a method of the scheduler that returned it to the body, or ``on_trigger``, which handed it over.
+    ``nth``: its number among the timers that came so, from 1; 0 is that of the entry in which the body acts.
+    """
+
+    method: MethodName
+    nth: Int32 = 0
+
+
 class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
-    """The probe calls a method on every reference that it holds for a required port element.
+    """The probe calls a method on every reference that it holds for a required port element, or on one object timer.
 
     ``port``: the required port element: one of its own, or the ``element`` of a technical policy.
     ``method``: name of the method.
@@ -97,6 +115,8 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     ``remembered``: what takes the place of some of them. The probe does not call while it has not been given one of these.
     ``given``: it calls only if the body was entered at ``exchange`` with this value.
     ``from_clock``: the argument that is a date. The probe does not call if the clock gives no time.
+    ``handler``: which of its handlers the body passes before the arguments, to a scheduler of object timers.
+    ``on``: the object timer that is called. The probe does not call while it has not been given it.
     """
 
     port: PortElementName
@@ -105,6 +125,8 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     remembered: tuple[Remembered, ...] = ()
     given: Annotated[Int32 | None, Names("payload")] = None
     from_clock: FromClock | None = None
+    handler: Annotated[str | None, Names("port element")] = None
+    on: TimerFrom | None = None
 
 
 class Answer(Value, frozen=True, tag_field="do", tag="answer"):
@@ -163,7 +185,12 @@ COMPONENT_TRACE = "component_trace"
 PORT_TRACE = "port_trace"
 """The policies of the container services (10.1.4)."""
 
-REQUIRED_ELEMENTS = {CLOCK: "clock_api", COMPONENT_TRACE: "trace_api", INDEX_TIMERS: TIMER_SERVICE}
+REQUIRED_ELEMENTS = {
+    CLOCK: "clock_api",
+    COMPONENT_TRACE: "trace_api",
+    INDEX_TIMERS: TIMER_SERVICE,
+    OBJECT_TIMERS: TIMER_SCHEDULER,
+}
 """The port element that a component requires by such a policy."""
 
 SERVICE_CONNECTOR: Final = "simple_service_connector"
@@ -172,7 +199,7 @@ MESSAGE_CONNECTOR: Final = "simple_message_connector"
 
 PUSH = "push"
 STANDARD_METHODS = frozenset(
-    (PUSH, "get_local_time", "get_synchronized_time", "log", *platform.METHODS, *TIMER_METHODS)
+    (PUSH, "get_local_time", "get_synchronized_time", "log", *platform.METHODS, *TIMER_METHODS, *OBJECT_TIMER_METHODS)
 )
 """The methods of the platform's interfaces: of messages, the clock, the trace, timers and the connectors of 10.4."""
 
@@ -212,6 +239,7 @@ class Declaration(Value, frozen=True):
     ``policies``: technical policies.
     ``ports``: the interface of each port element that has one, by name.
     ``defaults``: default values (9.2.7.4) by attribute name; they hold for attributes that are not configured.
+    ``handlers``: the body's own handlers of object timers (10.3.1). Each is entered at ``method``, with its name as the port element.
     """
 
     provides: tuple[PortElementName, ...] = ()
@@ -223,6 +251,7 @@ class Declaration(Value, frozen=True):
     policies: tuple[Policy, ...] = ()
     ports: dict[PortElementName, str] = {}
     defaults: dict[str, str] = {}
+    handlers: tuple[PortElementName, ...] = ()
 
     def __post_init__(self) -> None:
         if len({*self.provides, *self.requires}) < len(self.provides) + len(self.requires):

@@ -67,6 +67,54 @@ class PortConnection:
     to_port: Sequence[PortElementObject | None]
 
 
+class ObjectTimer(ABC):
+    """A timer of 10.3.1, which a scheduler gives out. ``rounds`` and ``id`` are the getters of its attributes."""
+
+    @abstractmethod
+    def rounds(self) -> int:
+        """Its rounds, from 0 to 2**32 - 1."""
+
+    @abstractmethod
+    def id(self) -> str:
+        """Its identifier."""
+
+    @abstractmethod
+    def cancel(self) -> None:
+        """It triggers no more."""
+
+    @abstractmethod
+    def is_cancelled(self) -> bool:
+        """Was it cancelled?"""
+
+
+class TimerHandler(ABC):
+    """What a body passes to a scheduler, and the timer calls (10.3.1)."""
+
+    @abstractmethod
+    def on_trigger(self, timer: ObjectTimer, delta_time: Sequence[int], round: int) -> None:
+        """``timer`` triggers. ``delta_time``: seconds and microseconds. ``round``: from 0 to 2**32 - 1."""
+
+
+class TimerScheduler(PortElementObject):
+    """The port element ``timer_scheduler`` that a component requires by the policy ``ott_timer`` (10.3.1). Times are seconds and
+    microseconds. The methods raise what the framework raises where it refuses a call.
+    """
+
+    @abstractmethod
+    def scheduler_trigger(self, handler: TimerHandler, delay: Sequence[int]) -> ObjectTimer:
+        """Makes a timer that triggers ``handler`` once, after ``delay``."""
+
+    @abstractmethod
+    def schedule_repeated_trigger(
+        self, handler: TimerHandler, start_delay: Sequence[int], interval: Sequence[int], max_rounds: int
+    ) -> ObjectTimer | None:
+        """Makes a timer that triggers ``handler`` ``max_rounds`` times, and returns it if ``repeated-result=timer`` is declared."""
+
+    def exchange(self, value: int) -> int:
+        """A scheduler has no such method."""
+        raise NotImplementedError("exchange")
+
+
 class ComponentExecution(ABC):
     """What a self-executing component provides to its container (10.1.3): ``self-execution_api``."""
 

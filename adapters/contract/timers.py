@@ -1,8 +1,9 @@
-"""The index timers of 10.3.2: the policy, its port elements and their methods; all names are those of the text.
+"""The timers of 10.3: policies, port elements and methods of index timers and object timers; all names are those of the text.
 
 ``adapters.contract.scenario`` exports all names of this module.
 
-A time-out is a list of whole seconds and a flag. ``RELATIVE_TIME`` counts from the call, ``ABSOLUTE_TIME`` is a date of a clock.
+A time-out of 10.3.2 is a list of whole seconds and a flag. ``RELATIVE_TIME`` counts from the call, ``ABSOLUTE_TIME`` is a date of a
+clock. A time of 10.3.1 is a list of seconds and microseconds, as that of the clock (10.1.4.1).
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import Final
 from ucm_cts.adapters.contract.data_types import Datum
 
 INDEX_TIMERS: Final = "itt_timer"
-"""The policy."""
+"""The policy of index timers."""
 
 TIMER_SERVICE: Final = "timer_service"
 TIMER_CALLBACK: Final = "timer_callback"
@@ -33,11 +34,35 @@ RELATIVE_TIME: Final = "RELATIVE_TIME"
 """The flags of a time-out."""
 
 TIMER_METHODS: Final = frozenset((START_PERIODIC, START_SPORADIC, CANCEL_TIMER, IS_CANCELED, ON_TIMEOUT))
-"""All methods."""
+"""All methods of index timers."""
+
+OBJECT_TIMERS: Final = "ott_timer"
+"""The policy of object timers."""
+
+TIMER_SCHEDULER: Final = "timer_scheduler"
+"""Its port element, which the component requires."""
+
+SCHEDULE_ONCE: Final = "scheduler_trigger"
+SCHEDULE_REPEATED: Final = "schedule_repeated_trigger"
+"""The methods of the scheduler: handler and delay, with a timer as the result; handler, start delay, interval and rounds."""
+
+ON_TRIGGER: Final = "on_trigger"
+"""The method of a handler: a timer, a time and a round."""
+
+CANCEL: Final = "cancel"
+IS_CANCELLED: Final = "is_cancelled"
+TIMER_ROUNDS: Final = "rounds"
+TIMER_ID: Final = "id"
+"""The methods of an object timer, and the getters of its attributes."""
+
+OBJECT_TIMER_METHODS: Final = frozenset(
+    (SCHEDULE_ONCE, SCHEDULE_REPEATED, ON_TRIGGER, CANCEL, IS_CANCELLED, TIMER_ROUNDS, TIMER_ID)
+)
+"""All methods of object timers."""
 
 LARGEST_NUMBER: Final = 2**32 - 1
 LARGEST_SECONDS: Final = 2**32 - 1
-"""The largest number of a timer, and the latest date."""
+"""The largest number of a timer or a round, and the latest date."""
 
 
 def date_from(arguments: Sequence[Datum], position: int, time: Sequence[Datum]) -> tuple[Datum, ...] | None:

@@ -154,6 +154,8 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
     ``method``: name of the method.
     ``arguments``: IN and INOUT values of the method.
     ``wrong``: what the framework handed over that is not of the type of the interface, for people; its field is empty.
+    ``timer``: the object timer that ``on_trigger`` was given: its number among those that came to the body, from 1. One that comes
+        again has another number, because the body cannot tell whether it is the same.
     """
 
     hook: Hook
@@ -165,6 +167,7 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
     method: str | None = None
     arguments: tuple[Datum, ...] | None = None
     wrong: str = ""
+    timer: Int64 | None = None
 
 
 class Exit(BodyEvent, frozen=True, tag="exit"):
@@ -196,12 +199,16 @@ class Request(BodyEvent, frozen=True, tag="request"):
     ``value``: argument of ``exchange``.
     ``method``: name of the method; none for ``exchange``.
     ``arguments``: IN and INOUT values of the method.
+    ``handler``: the handler that is passed before them.
+    ``timer``: the object timer that is called, by its number.
     """
 
     port: PortElementName
     value: Int64 = 0
     method: str | None = None
     arguments: tuple[Datum, ...] | None = None
+    handler: PortElementName | None = None
+    timer: Int64 | None = None
 
 
 class Reply(BodyEvent, frozen=True, tag="reply"):
@@ -213,6 +220,7 @@ class Reply(BodyEvent, frozen=True, tag="reply"):
     ``results``: OUT, INOUT and RETURN values of a method, or fields of ``exception``.
     ``exception``: name of the declared exception.
     ``wrong``: what came back that is not of the type of the interface, for people.
+    ``timer``: the object timer that came back: its number, as that of ``Enter``.
     """
 
     port: PortElementName
@@ -221,6 +229,7 @@ class Reply(BodyEvent, frozen=True, tag="reply"):
     results: tuple[Datum, ...] | None = None
     exception: str | None = None
     wrong: str = ""
+    timer: Int64 | None = None
 
     @property
     def failed(self) -> bool:

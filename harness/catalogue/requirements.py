@@ -234,6 +234,12 @@ class Capabilities(Value, frozen=True):
 
 
 @functools.cache
+def needs_of_requirement(requirement: str) -> tuple[Need, ...]:
+    """What ``requirement`` needs, by the suite's own capabilities."""
+    return tuple(load_capabilities().of(requirement))
+
+
+@functools.cache
 def _parts() -> Mapping[str, tuple[str, ...]]:
     """The parts of clauses 10.2 to 10.5 that a requirement belongs to, by its id; none in the making."""
     finished = {part: tuple(p for p in claims_of(part) if p not in unfinished_parts()) for part in get_args(Part)}

@@ -133,7 +133,8 @@ def _uses(scenario: Scenario, name: str) -> bool:
         or any(name in declaration.plan for declaration in scenario.components.values())
         or any(name == policy.definition for one in scenario.components.values() for policy in one.policies)
         or name in needs_of(scenario)
-        or (name == s.ON_TIMEOUT and any(has_timers(one) for one in scenario.components.values()))
+        or (name == s.ON_TIMEOUT and any(has_timers(one, s.INDEX_TIMERS) for one in scenario.components.values()))
+        or (name == s.ON_TRIGGER and any(one.handlers for one in scenario.components.values()))
     )
 
 

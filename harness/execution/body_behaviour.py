@@ -6,7 +6,15 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
-from ucm_cts.harness.execution.planned_actions import Act, Plan, as_entered, depends_on_entries, is_as_planned, plan_of
+from ucm_cts.harness.execution.planned_actions import (
+    Act,
+    Due,
+    Plan,
+    as_entered,
+    depends_on_entries,
+    is_as_planned,
+    plan_of,
+)
 from ucm_cts.reference_models.model.service_policies import has_timers
 
 _NONE_HELD: dict[str, int] = {}
@@ -15,10 +23,11 @@ _NONE_HELD: dict[str, int] = {}
 
 class Body:
     """An instance of a component; ``held`` are the numbers of references of each port element that it has held, one after the
-    other: now the last ones. ``entries`` are those at methods, if what it calls depends on its entries.
+    other: now the last ones. ``entries`` are those at methods, if what it calls depends on its entries. ``timers`` are the object timers
+    that came to it: by which method, and the event.
     """
 
-    __slots__ = ("declaration", "depends_on_entries", "entries", "held", "plans")
+    __slots__ = ("declaration", "depends_on_entries", "entries", "held", "plans", "timers")
 
     def __init__(self, declaration: Declaration) -> None:
         self.declaration = declaration
@@ -26,6 +35,15 @@ class Body:
         self.entries: list[t.Enter] = []
         self.held = [_NONE_HELD]
         self.plans: dict[str, Plan] = {}
+        self.timers: list[tuple[str, int]] = []
+
+    def take_timer(self, method: str | None, event: t.Enter | t.Reply) -> str | None:
+        """It gets an object timer by ``method``, if the event tells one; what is wrong with its number."""
+        if event.timer is None:
+            return None
+        self.timers.append((method or "", event.n))
+        due = len(self.timers)
+        return None if event.timer == due else f"timer {event.timer} came after {due - 1}"
 
     def plan(self, hook: s.Hook) -> Plan:
         """Its plan for ``hook``."""
@@ -130,7 +148,7 @@ class BodyChecks:
         if body.depends_on_entries and event.hook == "method":
             body.entries.append(event)
         thread.frames.append(Frame(event, body))
-        return problem
+        return body.take_timer(event.method, event) or problem
 
     def check_request(self, event: t.Request, thread: Thread) -> str | None:
         body = self.body(event)
@@ -142,7 +160,12 @@ class BodyChecks:
         thread.frames.append(Frame(event))
         declaration = body.declaration
         known = event.port in declaration.requires or event.port in [p.element for p in declaration.policies]
-        return None if known else f"a request through {event.port!r}"
+        if not known:
+            return f"a request through {event.port!r}"
+        if event.handler is not None and event.handler not in declaration.handlers:
+            return f"a request with handler {event.handler!r}"
+        had = event.timer is None or 1 <= event.timer <= len(body.timers)
+        return None if had else f"a request on timer {event.timer} of {len(body.timers)}"
 
     def check_reply(self, event: t.Reply, thread: Thread) -> str | None:
         asked = thread.frames[-1].event if thread.frames else None
@@ -154,7 +177,10 @@ class BodyChecks:
         within = thread.frames[-1] if thread.frames else None
         if within is not None and within.body is not None and within.body.depends_on_entries:
             within.replies[asked.n] = event  # type: ignore[union-attr]
-        return None
+        body = self.body(event)
+        assert isinstance(asked, t.Request)
+        problem = body.take_timer(asked.method, event) if body is not None else None
+        return problem or _reply_problem(asked, event)
 
     def check_act(self, event: t.Pushed | t.Siblings | t.Held, thread: Thread) -> str | None:
         frame = thread.entered(event)
@@ -181,17 +207,19 @@ class BodyChecks:
         assert isinstance(enter, t.Enter)
         if enter.hook != event.hook:
             return f"{event.hook} is left where {enter.hook} was entered"
-        actions, raises, returned = plan = body.plan(enter.hook)
+        plan = body.plan(enter.hook)
+        actions: tuple[Due, ...] = plan.actions
+        raises, returned = plan.raises, plan.returns
         if event.raised != raises:
             return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
         if event.hook == "method" and not event.raised:
-            due = _due_results(plan, enter)
+            due = _due_results(plan, enter, body.declaration)
             if (event.results, event.exception) != due:
                 return f"{enter.method} gave {event.results!r}, its plan says {due[0]!r}"
         if body.depends_on_entries:
-            actions = as_entered(actions, acts, enter, body.entries, frame.replies)
+            actions = as_entered(plan.actions, acts, enter, body.entries, frame.replies, body.timers)
         # most bodies have nothing to do
-        if (actions or acts) and not is_as_planned(actions, acts, body.held_since(frame.began)):
+        if (actions or acts) and not is_as_planned(actions, acts, body.held_since(frame.began), frame.replies):
             return f"{event.component} did not act in {event.hook} as its plan says"
         if event.hook == "on_shutdown":
             body.held.append(_NONE_HELD)
@@ -201,25 +229,44 @@ class BodyChecks:
         return None if event.value == value else f"exchange returned {event.value}, its plan says {value}"
 
 
-def _due_results(plan: Plan, enter: t.Enter) -> tuple[tuple[Datum, ...] | None, str | None]:
+def _due_results(plan: Plan, enter: t.Enter, declaration: Declaration) -> tuple[tuple[Datum, ...] | None, str | None]:
     """The results of a method, and the exception with which it ends."""
     answers = [a for a in plan.actions if isinstance(a, s.Answer) and a.method == enter.method]
-    if not answers:
+    if not answers or _is_trigger(declaration, enter):
         return (), None
     own = answers[-1].results
     return enter.arguments if own is None else own, answers[-1].exception
 
 
+def _is_trigger(declaration: Declaration, event: t.Enter) -> bool:
+    """Does an object timer call a handler of the body (10.3.1)?"""
+    return event.hook == "method" and event.method == s.ON_TRIGGER and event.port in declaration.handlers
+
+
+def _reply_problem(asked: t.Request, event: t.Reply) -> str | None:
+    """Why a request cannot have ended so: timers come back from schedulers alone, and they give nothing else."""
+    if asked.handler is None or event.failed or event.wrong:
+        return None if event.timer is None else f"timer {event.timer} comes back from {asked.method}"
+    if event.results:
+        return f"{asked.method} gives {event.results!r} for a timer"
+    lacks = event.timer is None and asked.method == s.SCHEDULE_ONCE
+    return f"{asked.method} gives no timer" if lacks else None
+
+
 def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
     """Why a body of this declaration cannot be entered so."""
     hook = event.hook
+    is_trigger = _is_trigger(declaration, event)
+    if (event.timer is not None) != (is_trigger and not event.wrong):
+        return f"{event.method or hook} with timer {event.timer}"
     if (hook == "on_startup") != (event.dependencies is not None):
         return f"{hook} {'with' if event.dependencies is not None else 'without'} dependencies"
     if hook == "exchange":
         right = (event.value is not None or bool(event.wrong)) and event.port in declaration.provides
         return None if right else f"exchange on {event.port!r} with {event.value!r}"
     if hook == "method":
-        known = event.port in declaration.ports or (event.port == s.TIMER_CALLBACK and has_timers(declaration))
+        known = event.port in declaration.ports or is_trigger
+        known = known or (event.port == s.TIMER_CALLBACK and has_timers(declaration, s.INDEX_TIMERS))
         right = event.method is not None and event.arguments is not None and known
         return None if right else f"method {event.method!r} on {event.port!r}"
     if hook == "run" and not any(s.is_self_executing(policy.definition) for policy in declaration.policies):

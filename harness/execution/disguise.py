@@ -145,6 +145,7 @@ class Disguise:
             tuple(map(self._policy, d.policies)),
             {self._port(port): self._name(interface) for port, interface in d.ports.items()},
             self._attributes(d.defaults),
+            tuple(map(self._port, d.handlers)),
         )
 
     def _attributes(self, values: Mapping[str, str]) -> dict[str, str]:
@@ -176,8 +177,9 @@ class Disguise:
         if isinstance(named, s.CallMethod):
             remembered = tuple(map(self._named, named.remembered))
             clock = self._named(named.from_clock) if named.from_clock is not None else None
+            timer = self._named(named.on) if named.on is not None else None
             return msgspec.structs.replace(
-                named, arguments=self._arguments(named), remembered=remembered, from_clock=clock
+                named, arguments=self._arguments(named), remembered=remembered, from_clock=clock, on=timer
             )
         return named
 

@@ -17,6 +17,22 @@ Act = Request | Pushed | Siblings | Held
 """Events that show an action of a plan."""
 
 
+class Settled(NamedTuple):
+    """A call whose arguments are known, and the number of the object timer that it calls, if it calls one.
+
+    ``since``: the event by which the body got the last of them; 0 if it had all when it was entered. A body that acted meanwhile may have
+    looked for them before.
+    """
+
+    call: s.CallMethod
+    timer: int | None
+    since: int
+
+
+Due = Action | Settled
+"""What a body has to do."""
+
+
 class Plan(NamedTuple):
     """What a body does at a hook, whether it raises in the end, and what ``exchange`` returns if the plan says so."""
 
@@ -35,7 +51,10 @@ def plan_of(declaration: Declaration, hook: s.Hook) -> Plan:
 def depends_on_entries(declaration: Declaration) -> bool:
     """Does what the body calls depend on what it was entered with, or had been given before?"""
     calls = [a for plan in declaration.plan.values() for a in plan if isinstance(a, s.CallMethod)]
-    return any(call.remembered or call.given is not None or call.from_clock is not None for call in calls)
+    return any(
+        call.remembered or call.given is not None or call.from_clock is not None or call.on is not None
+        for call in calls
+    )
 
 
 def as_entered(
@@ -44,20 +63,23 @@ def as_entered(
     enter: Enter,
     entries: Sequence[Enter],
     replies: Mapping[int, Reply] = {},
-) -> tuple[Action, ...]:
+    timers: Sequence[tuple[str, int]] = (),
+) -> tuple[Due, ...]:
     """The plan of a body that was entered by ``enter``, with the values that it had been given at its ``entries``, and by the ``replies``
-    to requests of this plan, by request.
+    to requests of this plan, by request. ``timers`` are the object timers that came to it: by which method, and the event.
 
-    A call is left out if the body was entered with another value, or had not been given one of the call's values; if it was given
-    it meanwhile, the ``acts`` decide.
+    A call is left out if the body was entered with another value, or has not been given one of the call's values.
     """
-    found: list[Action] = []
+    found: list[Due] = []
     pairs = iter([*itertools.zip_longest(acts, acts[1:])])
     for action in plan:
         if isinstance(action, s.CallMethod) and action.given not in (None, enter.value):
             continue
         if isinstance(action, s.CallMethod) and action.from_clock is not None:
             found += _dated(action, action.from_clock, pairs, replies)
+            continue
+        if isinstance(action, s.CallMethod) and action.on is not None:
+            found += _on_timer(action, action.on, enter, timers)
             continue
         if not isinstance(action, s.CallMethod) or not action.remembered:
             found.append(action)
@@ -70,10 +92,24 @@ def as_entered(
             assert entry is not None
             arguments[one.argument] = (entry.arguments or ())[one.position]
         call = msgspec.structs.replace(action, arguments=tuple(arguments), remembered=())
-        meanwhile = any(entry is not None and entry.n > enter.n for entry in given)
-        if not meanwhile or any(_is(act, call) for act in acts):
-            found.append(call)
+        found.append(Settled(call, None, _since(max(entry.n for entry in given if entry is not None), enter)))
     return tuple(found)
+
+
+def _since(n: int, enter: Enter) -> int:
+    """``Settled.since`` of what came with event ``n``."""
+    return n if n > enter.n else 0
+
+
+def _on_timer(call: s.CallMethod, of: s.TimerFrom, enter: Enter, timers: Sequence[tuple[str, int]]) -> list[Due]:
+    """The call of the timer that the body was given; nothing if it was not."""
+    if of.nth == 0:
+        return [Settled(call, enter.timer, 0)] if enter.timer is not None and enter.method == of.method else []
+    matching = [(number, n) for number, (method, n) in enumerate(timers, 1) if method == of.method]
+    if not 1 <= of.nth <= len(matching):
+        return []
+    number, n = matching[of.nth - 1]
+    return [Settled(call, number, _since(n, enter))]
 
 
 def _dated(
@@ -113,44 +149,71 @@ def _given(one: s.Remembered, enter: Enter, entries: Sequence[Enter]) -> Enter |
     return found if found is not None and one.position < len(found.arguments or ()) else None
 
 
-def is_as_planned(plan: Sequence[Action], acts: Sequence[Act], held: tuple[dict[str, int], ...], done: int = 0) -> bool:
+def is_as_planned(
+    plan: Sequence[Due],
+    acts: Sequence[Act],
+    held: tuple[dict[str, int], ...],
+    replies: Mapping[int, Reply] = {},
+    done: int = 0,
+) -> bool:
     """Are ``acts``, but for those that are ``done``, what the plan has a body do that held these references, by number, at
-    one moment or another?
+    one moment or another? ``replies`` are what came back, by request.
     """
     for index, action in enumerate(plan):
         if isinstance(action, s.RaiseError):
             break
         if isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
             continue
-        times = 1
-        if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
-            times = held[0].get(action.port, 0)
-            others = [one.get(action.port, 0) for one in held[1:]]
-            if any(other != times for other in others):
-                rest = plan[index + 1 :]
-                return any(
-                    _are(acts[done : done + n], action, n) and is_as_planned(rest, acts, held, done + n)
-                    for n in {times, *others}
-                )
-        if not _are(acts[done : done + times], action, times):
+        times = _times(action, held)
+        if isinstance(action, Settled) and action.since > _end(acts, done, replies):
+            times |= {0}
+        if len(times) > 1:
+            rest = plan[index + 1 :]
+            return any(
+                _are(acts[done : done + n], action, n) and is_as_planned(rest, acts, held, replies, done + n)
+                for n in times
+            )
+        (only,) = times
+        if not _are(acts[done : done + only], action, only):
             return False
-        done += times
+        done += only
     return done == len(acts)
 
 
-def _are(acts: Sequence[Act], action: Action, times: int) -> bool:
+def _times(action: Due, held: tuple[dict[str, int], ...]) -> set[int]:
+    """How often a body may do it that held these references: once for each of them."""
+    call = action.call if isinstance(action, Settled) and action.timer is None else action
+    if isinstance(call, s.CallPort | s.CallMethod | s.Burst):
+        return {one.get(call.port, 0) for one in held}
+    return {1}
+
+
+def _end(acts: Sequence[Act], done: int, replies: Mapping[int, Reply]) -> int:
+    """The last event known of the acts that are ``done``; 0 if none is."""
+    if not done:
+        return 0
+    last = acts[done - 1]
+    return replies[last.n].n if last.n in replies else last.n
+
+
+def _are(acts: Sequence[Act], action: Due, times: int) -> bool:
     """Is each of ``acts`` this ``action``, and are there so many?"""
     return len(acts) == times and all(_is(act, action) for act in acts)
 
 
-def _is(act: Act, action: Action) -> bool:
+def _is(act: Act, action: Due) -> bool:
     """Does ``act`` show this action?"""
+    if isinstance(action, Settled) and act.n < action.since:
+        return False
     match act:
         case Request(method=None):
             return isinstance(action, s.CallPort) and (action.port, action.value) == (act.port, act.value)
         case Request():
-            own = act.port, act.method, act.arguments or ()
-            return isinstance(action, s.CallMethod) and (action.port, action.method, action.arguments) == own
+            call, timer = (action.call, action.timer) if isinstance(action, Settled) else (action, None)
+            own = act.port, act.method, act.arguments or (), act.handler, act.timer
+            return (
+                isinstance(call, s.CallMethod) and (call.port, call.method, call.arguments, call.handler, timer) == own
+            )
         case Pushed():
             own_burst = act.port, act.first, act.count
             return isinstance(action, s.Burst) and (action.port, action.first, action.count) == own_burst

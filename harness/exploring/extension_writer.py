@@ -5,12 +5,12 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Policy, Scenario
 from ucm_cts.harness.exploring.paced_writer import paced_scenario
-from ucm_cts.harness.exploring.timed_writer import timed_scenario
+from ucm_cts.harness.exploring.timed_writer import scheduled_scenario, timed_scenario
 from ucm_cts.harness.exploring.writer import Choose
 from ucm_cts.harness.purposes.derived import request_configuration as rr
 from ucm_cts.harness.purposes.derived import shared_data_configuration as sd
 
-WRITTEN_PARTS = ("index-timers", "request-response", "shared-data", *s.EXTENDED)
+WRITTEN_PARTS = ("index-timers", "object-timers", "request-response", "shared-data", *s.EXTENDED)
 """The parts of which it writes scenarios."""
 
 _PAUSE = 20
@@ -30,6 +30,8 @@ def extension_scenario(part: str, choose: Choose) -> Scenario:
     """A new scenario of ``part``; ``choose`` picks one of several things."""
     if part == "index-timers":
         return timed_scenario(choose)
+    if part == "object-timers":
+        return scheduled_scenario(choose)
     if part in s.EXTENDED:
         return paced_scenario(part, choose)
     return _SharedDataWriter(choose).scenario() if part == "shared-data" else _requests(choose)

@@ -1,4 +1,4 @@
-"""Random scenarios of index timers (10.3.2): components that start and cancel timers, are called back, stopped and started again."""
+"""Random scenarios of timers (10.3): components that start and cancel timers, are called back, stopped and started again."""
 
 from __future__ import annotations
 
@@ -7,12 +7,16 @@ import msgspec
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, CallMethod, Declaration, Hook, Policy, Scenario, Step
 from ucm_cts.harness.exploring.writer import Choose
+from ucm_cts.harness.purposes.derived import object_timer_steps as objects
 from ucm_cts.harness.purposes.derived import timer_steps as timers
 
 _INSIDE = "inside"
 _ELSEWHERE = "elsewhere"
 _NUMBERS = (5, 6, 300, 0, s.LARGEST_NUMBER)
 _SECONDS = (1, 1, 1, 2, 3, 0)
+_DELAYS = (0.2, 0.3, 0.5, 0.8, 0.25, 1.2, 0)
+_INTERVALS = (0.3, 0.5, 0.8, 1.1)
+_ROUNDS = (1, 2, 3, 5, 40, 0)
 _PAUSES = (20, 300, 700, 1000, 1350)
 """Milliseconds."""
 
@@ -30,8 +34,13 @@ def timed_scenario(choose: Choose) -> Scenario:
     return _TimedWriter(choose).scenario()
 
 
+def scheduled_scenario(choose: Choose) -> Scenario:
+    """The same with object timers."""
+    return _ScheduledWriter(choose).scenario()
+
+
 class _TimedWriter:
-    """Writes one scenario. Each call of a component has a value of its own, and with it an order of its own."""
+    """Writes one scenario of index timers. Each call of a component has a value of its own, and with it an order of its own."""
 
     def __init__(self, choose: Choose) -> None:
         self.choose = choose
@@ -62,14 +71,22 @@ class _TimedWriter:
             plan["on_startup"] = (self._order(None),)
         if self.choose((False, False, False, True)):
             plan["exchange"] = (s.HoldAtGate(_INSIDE),)
-        policies = (*self.choose(_EXECUTION), *self.choose(((timers.TIMERS,), timers.WITH_CLOCK)))
-        reads = timers.READ_CLOCKS if timers.WITH_CLOCK[1] in policies else ()
         called: tuple[Action, ...] = self.choose(
-            ((), (), (timers.cancel_own(),), (self._order(None),), (s.HoldAtGate(_INSIDE),), (s.RaiseError(),))
+            ((), (), (self._cancel_own(),), (self._order(None),), (s.HoldAtGate(_INSIDE),), (s.RaiseError(),))
         )
-        self.components[name] = timers.timed(policies=policies, on_timeout=(*reads, *called), plan=plan)
+        self.components[name] = self._component(self.choose(_EXECUTION), called, plan)
         self.orders[name] = []
         self._place(name, name)
+
+    def _component(
+        self, execution: tuple[Policy, ...], called: tuple[Action, ...], plan: dict[Hook, tuple[Action, ...]]
+    ) -> Declaration:
+        policies = (*execution, *self.choose(((timers.TIMERS,), timers.WITH_CLOCK)))
+        reads = timers.READ_CLOCKS if timers.WITH_CLOCK[1] in policies else ()
+        return timers.timed(policies=policies, on_timeout=(*reads, *called), plan=plan)
+
+    def _cancel_own(self) -> CallMethod:
+        return timers.cancel_own()
 
     def _whole(self, name: str) -> Declaration:
         """The component with all orders that it is given."""
@@ -123,3 +140,35 @@ class _TimedWriter:
         """One container is stopped, and started again."""
         place = self.choose(self.places)
         self.steps += [s.OpenGate(_INSIDE), s.Stop(place), s.Pause(self.choose(_PAUSES)), s.Start(place)]
+
+
+class _ScheduledWriter(_TimedWriter):
+    """Writes one scenario of object timers."""
+
+    def __init__(self, choose: Choose) -> None:
+        super().__init__(choose)
+        self.asks: tuple[Action, ...] = choose((objects.ASKS, objects.ASKS, ()))
+
+    def _component(
+        self, execution: tuple[Policy, ...], called: tuple[Action, ...], plan: dict[Hook, tuple[Action, ...]]
+    ) -> Declaration:
+        beside = self.choose(((), (), (timers.TIMERS,)))
+        policies = (*execution, objects.SCHEDULES, *beside)
+        return objects.scheduling(policies=policies, on_trigger=(*self.asks, *called), plan=plan)
+
+    def _cancel_own(self) -> CallMethod:
+        return objects.own(s.CANCEL)
+
+    def _order(self, told: int | None) -> CallMethod:
+        delay = self.choose(_DELAYS)
+        delay = max(delay, 0.2) if told is None else delay
+        handler, nth = self.choose(objects.HANDLERS), self.choose((1, 1, 2, 3))
+        methods = (s.CANCEL, s.CANCEL, s.IS_CANCELLED, s.TIMER_ID, s.TIMER_ID, s.TIMER_ROUNDS)
+        orders = (
+            objects.once(delay, told, handler),
+            objects.once(delay, told, handler),
+            objects.repeated(delay, self.choose(_INTERVALS), self.choose(_ROUNDS), told, handler),
+            objects.made(self.choose(methods), nth, told),
+        )
+        found: CallMethod = self.choose(orders)
+        return found

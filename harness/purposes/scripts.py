@@ -27,6 +27,7 @@ class Part(Value, frozen=True):
     ``requires``: required port elements.
     ``attributes``: configured values by attribute name.
     ``connectable``: the body implements Connectable.
+    ``handlers``: its handlers of object timers.
     ``fragment``: the body implements FragmentObject.
     ``plan``: the actions of the body in each hook.
     ``policies``: technical policies.
@@ -39,6 +40,7 @@ class Part(Value, frozen=True):
     requires: tuple[str, ...] = ()
     attributes: dict[str, str] = {}
     connectable: bool = False
+    handlers: tuple[str, ...] = ()
     fragment: bool = False
     plan: dict[Hook, tuple[Action, ...]] = {}
     policies: tuple[Policy, ...] = ()
@@ -143,6 +145,7 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             requires=probe.requires if probe else part.requires,
             attributes=part.attributes,
             connectable=part.connectable,
+            handlers=part.handlers,
             fragment=part.fragment,
             plan=part.plan,
             policies=part.policies,

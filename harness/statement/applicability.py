@@ -10,17 +10,18 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
-from ucm_cts.harness.catalogue.requirements import Need, Requirement, load_capabilities
+from ucm_cts.harness.catalogue.requirements import Need, Requirement, load_capabilities, needs_of_requirement
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.statement import HOOKS, IMPOSSIBLE, Statement, default_statement
 from ucm_cts.harness.results.values import Verdict
 from ucm_cts.reference_models.model.execution_policies import protection_of
+from ucm_cts.reference_models.model.service_policies import TIMERS
 
 Cases = tuple[tuple[str, Scenario], ...]
 
-_PARTS_OF_POLICIES = {s.INDEX_TIMERS: "index-timers"}
+_PARTS_OF_POLICIES = {s.INDEX_TIMERS: "index-timers", s.OBJECT_TIMERS: "object-timers"}
 """The parts that have another name than their policy."""
 
 
@@ -39,12 +40,24 @@ def needs_of(scenario: Scenario) -> frozenset[str]:
     return frozenset(applied & _parts() | {step.claim for step in scenario.steps if step.claim})
 
 
+_KNOWN: dict[int, tuple[Scenario, frozenset[str]]] = {}
+"""What scenarios of test purposes need. They live as long as the process, because ``load_purposes`` keeps them."""
+
+
+def _needs_as_known(scenario: Scenario) -> frozenset[str]:
+    """``needs_of`` a scenario of a test purpose."""
+    known = _KNOWN.get(id(scenario))
+    if known is None:
+        known = _KNOWN[id(scenario)] = scenario, needs_of(scenario)
+    return known[1]
+
+
 def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, str] | None:
     """Why ``requirement`` is not decided for this vendor, and what its verdict is then; None if it is to be decided.
 
     A test facility that the adapter does not offer makes it inconclusive; a capability that is not claimed makes it not applicable.
     """
-    missing = [unmet for need in load_capabilities().of(requirement.id) for unmet in _unmet(need, statement)]
+    missing = [unmet for need in needs_of_requirement(requirement.id) for unmet in _unmet(need, statement)]
     if set(requirement.rules) <= CHECKS.keys() and not statement.meets(_WITH_MODELS):
         missing.append((_WITH_MODELS,))
     if not missing:
@@ -96,7 +109,7 @@ def lacking_claims(statement: Statement, profile: str) -> Mapping[str, str]:
     found: set[str] = set()
     for purpose in _all_purposes(statement, profile):
         for _, scenario in purpose.scenarios:
-            missing = {need for need in needs_of(scenario) if not statement.meets(need)}
+            missing = {need for need in _needs_as_known(scenario) if not statement.meets(need)}
             for requirement in purpose.requirements:
                 lacking.setdefault(requirement, set()).update(missing)
             found.update(() if missing else purpose.requirements)
@@ -143,17 +156,23 @@ def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
     draw = purpose.draw
     as_written = _MISSING_POLICY in purpose.requirements
     fitted = draw and (lambda seed, readings: fitting(draw(seed, readings), statement, as_written))
-    return replace(purpose, scenarios=fitting(purpose.scenarios, statement, as_written), draw=fitted)
+    scenarios = fitting(purpose.scenarios, statement, as_written, _needs_as_known)
+    return replace(purpose, scenarios=scenarios, draw=fitted)
 
 
-def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement, as_written: bool = False) -> Cases:
+def fitting(
+    cases: Iterable[tuple[str, Scenario]],
+    statement: Statement,
+    as_written: bool = False,
+    needs: Callable[[Scenario], frozenset[str]] = needs_of,
+) -> Cases:
     """The ``cases`` that need only claimed parts, with the declared patience. Components get the execution policy that the framework
-    insists on, unless they are taken ``as_written``.
+    insists on, unless they are taken ``as_written``. ``needs`` says what a scenario needs.
     """
     return tuple(
         (name, _fitted(scenario if as_written else with_policies(scenario, statement), statement))
         for name, scenario in cases
-        if all(map(statement.meets, needs_of(scenario)))
+        if all(map(statement.meets, needs(scenario)))
     )
 
 
@@ -180,7 +199,7 @@ def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
     """
     patience = round(scenario.patience * statement.ixit["patience"] / default_statement().ixit["patience"])
     policies = [policy for declaration in scenario.components.values() for policy in declaration.policies]
-    if any(policy.settings or policy.definition == s.INDEX_TIMERS for policy in policies):
+    if any(policy.settings or policy.definition in TIMERS for policy in policies):
         patience = max(patience, scenario.patience)
     steps = scenario.steps
     if not statement.meets("trace-sink=hook"):

@@ -18,14 +18,14 @@ _PROTECTIONS: dict[str, Protection] = {
 }
 _PROTECTIONS |= {extended: _PROTECTIONS[base] for extended, base in s.EXTENDED.items()}
 
-_KNOWN = {*_PROTECTIONS, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE, s.INDEX_TIMERS}
+_KNOWN = {*_PROTECTIONS, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE, s.INDEX_TIMERS, s.OBJECT_TIMERS}
 
 _RUNS_APART = "R-10.1.3.2-05"
 _RUN_AND_PORTS, _MANAGED_PORTS, _WHOLE_COMPONENT = "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10"
 _PASSIVE, _EXECUTIONS_APART = "R-10.1.3.2-13", "R-10.1.3.2-16"
 _EXTENDED_SELF_EXECUTING, _EXTENDED_ACTIVE = "R-10.5.2-18", "R-10.5.2-19"
-TIMERS_EXCLUDED = "R-10.3.2-43"
-"""The requirement that keeps callbacks of timers apart from other executions."""
+TIMERS_EXCLUDED, TRIGGERS_EXCLUDED = "R-10.3.2-43", "R-10.3.1-36"
+"""The requirements that keep callbacks of timers, and triggers of object timers, apart from other executions."""
 
 CALL_EXCLUSIONS = (
     _RUN_AND_PORTS,
@@ -36,6 +36,7 @@ CALL_EXCLUSIONS = (
     _EXTENDED_SELF_EXECUTING,
     _EXTENDED_ACTIVE,
     TIMERS_EXCLUDED,
+    TRIGGERS_EXCLUDED,
 )
 """The requirements that keep executions by calls apart."""
 
@@ -92,8 +93,10 @@ def managed_ports(declaration: Declaration) -> set[str]:
 
 def exclusion(declaration: Declaration, ics: Ics, one: str, other: str) -> str:
     """The requirement that keeps two ways into a component apart; empty if none does, or if the vendor reads it so. Callbacks of timers
-    have one of their own.
+    have one of their own, and so have triggers.
     """
+    if not {one, other}.isdisjoint(declaration.handlers):
+        return TRIGGERS_EXCLUDED if _exclusion(declaration, ics, one, other) else ""
     if s.TIMER_CALLBACK in (one, other) and s.TIMER_CALLBACK not in declaration.provides:
         return TIMERS_EXCLUDED if _exclusion(declaration, ics, one, other) else ""
     return _exclusion(declaration, ics, one, other)

@@ -29,11 +29,6 @@ def timer_phases(runtime: ObservedRuntime) -> list[TimerPhase]:
     return runtime.timer_phases
 
 
-def all_timers(runtime: ObservedRuntime) -> list[Timer]:
-    """The timers of all these phases."""
-    return [timer for phase in timer_phases(runtime) for timer in phase.timers]
-
-
 def is_callback(execution: Execution) -> bool:
     """Was a component entered at the callback of its timers?"""
     return execution.enter.hook == "method" and execution.enter.port == s.TIMER_CALLBACK

@@ -18,8 +18,8 @@ from ucm_cts.reference_models.model.timer_events import TimerPhase
 class ObservedRuntime(Runtime):
     """A runtime with what bodies execute and how they interact, recorded if the scenario is ``interacting``: if port elements
     have interfaces or components policies. ``service_calls`` and ``undisturbed`` are what the functions of services
-    with these names have found, ``requests``, ``shared_data``, ``paced_phases`` and ``timer_phases`` what the functions
-    ``all_requests``, ``all_shared_data``, ``paced_phases`` and ``timer_phases`` have, ``is_over`` says that no event follows.
+    with these names have found, ``requests``, ``shared_data``, ``paced_phases``, ``timer_phases`` and ``object_timer_phases`` what the functions
+    ``all_requests``, ``all_shared_data``, ``paced_phases``, ``timer_phases`` and ``object_timer_phases`` have, ``is_over`` says that no event follows.
     """
 
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
@@ -35,6 +35,7 @@ class ObservedRuntime(Runtime):
         self.shared_data: list[SharedData] | None = None
         self.paced_phases: list[PacedPhase] | None = None
         self.timer_phases: list[TimerPhase] | None = None
+        self.object_timer_phases: list[TimerPhase] | None = None
         self.undisturbed: list[tuple[ServiceCall, Trouble]] | None = None
         self.is_over = False
 

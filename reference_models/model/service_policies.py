@@ -11,7 +11,8 @@ from ucm_cts.reference_models.model.runtime import raises
 
 TRACES = (s.COMPONENT_TRACE, s.PORT_TRACE)
 SERVICES = (s.CLOCK, *TRACES)
-BESIDE_EXECUTION = (*SERVICES, s.INDEX_TIMERS)
+TIMERS = (s.INDEX_TIMERS, s.OBJECT_TIMERS)
+BESIDE_EXECUTION = (*SERVICES, *TIMERS)
 """The policies of the platform that are no execution policies."""
 
 
@@ -45,9 +46,9 @@ def methods_named(policy: Policy) -> set[str]:
     return set(re.findall(r"\w+", policy.parameters.get(s.METHODS_TO_TRACE, "")))
 
 
-def has_timers(declaration: Declaration | None) -> bool:
-    """Has the component index timers (10.3.2)?"""
-    return declaration is not None and any(p.definition == s.INDEX_TIMERS for p in declaration.policies)
+def has_timers(declaration: Declaration | None, *definitions: str) -> bool:
+    """Has the component timers (10.3), of any kind or of these policies?"""
+    return declaration is not None and any(p.definition in (definitions or TIMERS) for p in declaration.policies)
 
 
 def only_service(declaration: Declaration, *definitions: str) -> bool:

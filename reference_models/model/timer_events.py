@@ -1,4 +1,6 @@
-"""What was seen of index timers (10.3.2): operational phases, with the timers that were started in them and their callbacks.
+"""What was seen of timers (10.3): operational phases, with the timers that were started in them and their callbacks.
+
+Index timers and object timers are timers of one kind or the other; a trigger of an object timer is its callback.
 
 All times are those of events (``t``), in nanoseconds of the recorder's clock.
 """
@@ -18,20 +20,30 @@ from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.operational_phase import Phase
 from ucm_cts.reference_models.model.runtime import Member
 
-SECOND = 1_000_000_000
+SECOND, _MICROSECOND = 1_000_000_000, 1000
 """In nanoseconds."""
+
+Kind = Literal["index", "object"]
+"""The two kinds of timers."""
 
 
 class TimeOut(NamedTuple):
-    """A time-out: whole seconds, and whether they are a date."""
+    """A time-out: seconds, whether they are a date, and the microseconds of object timers."""
 
     seconds: int
     is_absolute: bool
+    microseconds: int = 0
 
     @property
     def lasts(self) -> int:
         """A relative one in nanoseconds."""
-        return self.seconds * SECOND
+        return self.seconds * SECOND + self.microseconds * _MICROSECOND
+
+    @property
+    def shown(self) -> str:
+        """For people."""
+        fraction = f".{self.microseconds:06}".rstrip("0") if self.microseconds else ""
+        return f"{self.seconds}{fraction} s"
 
 
 def time_out_of(value: Datum | None) -> TimeOut | None:
@@ -42,15 +54,29 @@ def time_out_of(value: Datum | None) -> TimeOut | None:
     return None
 
 
+def span_of(value: Datum | None) -> TimeOut | None:
+    """``value`` as a time of an object timer; None if it is none."""
+    match value:
+        case [int(seconds), int(microseconds)] if not isinstance(seconds, bool) and not isinstance(microseconds, bool):
+            return TimeOut(seconds, False, microseconds) if seconds >= 0 and 0 <= microseconds < 1_000_000 else None
+    return None
+
+
 @dataclass(slots=True, eq=False)
 class TimerCallback:
-    """A component was entered at its callback.
+    """A component was entered at its callback, or at a handler.
 
     ``timer``: the timer that it belongs to; None if there is none.
+    ``is_open``: it may belong to several timers.
+    ``stranger``: the waiting timer of another handler that it was given, by its identifier.
+    ``id``: what the object timer that it was given said its identifier is; None if it was not asked.
     """
 
     execution: Execution
     timer: Timer | None = None
+    is_open: bool = False
+    stranger: Timer | None = None
+    id: Datum | None = None
 
     @property
     def enter(self) -> Enter:
@@ -80,6 +106,12 @@ class TimerCallback:
         number = arguments[1] if len(arguments) == 2 else None
         return number if isinstance(number, int) and not isinstance(number, bool) else None
 
+    @property
+    def delta(self) -> TimeOut | None:
+        """The time difference that a trigger tells; None if it tells none."""
+        arguments = self.enter.arguments or ()
+        return span_of(arguments[0]) if len(arguments) == 2 else None
+
 
 @dataclass(slots=True, eq=False)
 class Timer:
@@ -87,10 +119,15 @@ class Timer:
 
     ``phase``: where it was started.
     ``call``: how. ``is_in_startup``: inside on_startup.
-    ``delay``, ``rate``: what was asked for; sporadic timers have no rate.
-    ``cancels``: the calls that cancel its number, before the number is started anew.
+    ``number``: of an index timer; for an object timer, which one of its component it is, from 1.
+    ``delay``, ``rate``: what was asked for; sporadic timers, and those with one trigger, have no rate.
+    ``kind``: of which kind it is.
+    ``handler``, ``max_rounds``: what was asked for an object timer; ``max_rounds`` is None if it has one trigger.
+    ``handles``: the numbers under which it came to the body.
+    ``cancels``: the calls that cancel it, of an index timer those before its number is started anew.
     ``again``: the call that started its number anew.
-    ``is_contested``: its number was started while a timer of that number may have been waiting.
+    ``is_contested``: its callbacks cannot be told from those of another timer: its number was started while a timer of that number may
+        have been waiting, or the body did not ask which object timer triggers its handler.
     ``callbacks``: in its phase, in order.
     ``begun``: between which moments its delay has passed, once that was asked for; None if it cannot be told.
     ``disturbed``: the number of the first callback that may have come at another time, once that was asked for.
@@ -102,6 +139,10 @@ class Timer:
     delay: TimeOut
     rate: TimeOut | None
     is_in_startup: bool
+    kind: Kind = "index"
+    handler: str = ""
+    max_rounds: int | None = None
+    handles: list[int] = field(default_factory=list)
     cancels: list[MethodCall] = field(default_factory=list)
     again: MethodCall | None = None
     is_contested: bool = False
@@ -116,22 +157,45 @@ class Timer:
 
     @property
     def has_usual_times(self) -> bool:
-        """Are its times relative, and greater than zero?"""
-        return (
-            not self.delay.is_absolute and self.delay.seconds > 0 and (self.rate is None or not self.rate.is_absolute)
-        )
+        """Are its times relative, and is there a delay, and a round?"""
+        is_relative = not self.delay.is_absolute and (self.rate is None or not self.rate.is_absolute)
+        return is_relative and self.delay.lasts > 0 and self.max_rounds != 0
+
+    @property
+    def has_no_delay(self) -> bool:
+        """Is it due when it is started?"""
+        return not self.delay.is_absolute and self.delay.lasts == 0
+
+    @property
+    def id(self) -> Datum | None:
+        """What is known of the identifier of an object timer."""
+        return next((self.phase.ids[handle] for handle in self.handles if handle in self.phase.ids), None)
+
+    @property
+    def most(self) -> int | None:
+        """How often it calls back; None if there is no end, or may be none."""
+        return 1 if self.rate is None else self.max_rounds or None
+
+    @property
+    def label(self) -> str:
+        """What findings call it."""
+        if self.kind == "index":
+            return f"timer {self.number}"
+        return f"timer {self.number} of handler '{self.handler}'"
+
+    def has_come(self, n: int) -> bool:
+        """Had it called back for the last time before event ``n``?"""
+        return self.most is not None and sum(callback.n < n for callback in self.callbacks) >= self.most
 
     def waits(self, n: int) -> bool:
-        """May it wait at event ``n``? A sporadic one does until its callback, each one until somebody cancels it."""
-        has_come = self.rate is None and any(callback.n < n for callback in self.callbacks)
-        return not has_come and not any(cancel.request.n < n for cancel in self.cancels)
+        """May it wait at event ``n``? It does until its last callback, or until somebody cancels it."""
+        return not self.has_come(n) and not any(cancel.request.n < n for cancel in self.cancels)
 
     @property
     def cancelled(self) -> MethodCall | None:
         """The call that cancelled it while it waited; None if none did."""
         for cancel in self.cancels:
-            has_come = self.rate is None and any(c.n < cancel.request.n for c in self.callbacks)
-            return None if has_come else cancel
+            return None if self.has_come(cancel.request.n) else cancel
         return None
 
     @property
@@ -143,15 +207,17 @@ class Timer:
 
 @dataclass(slots=True, eq=False)
 class TimerPhase:
-    """An operational phase of a component with index timers.
+    """An operational phase of a component with timers of one kind.
 
     ``of``: the phase.
     ``timers``: those started in it, in order.
     ``callbacks``: all of them, up to the end of the operation that ended it.
     ``resumed``: those of them that belong to timers of an earlier phase.
-    ``calls``: all calls of the service, up to the end of the operation that ended it.
+    ``calls``: all calls of the service, or of schedulers and object timers, up to the end of the operation that ended it.
     ``executions``: all executions of the component in it, callbacks and others.
     ``readings``: what the component read from its clocks, by method, at any time.
+    ``ids``: what object timers said first of their identifiers, by the number under which they came to the body.
+    ``kind``: of which kind the timers are.
     """
 
     of: Phase
@@ -161,6 +227,8 @@ class TimerPhase:
     calls: list[MethodCall] = field(default_factory=list)
     executions: list[Execution] = field(default_factory=list)
     readings: Mapping[str, Sequence[ClockReading]] = field(default_factory=dict)
+    kind: Kind = "index"
+    ids: Mapping[int, Datum] = field(default_factory=dict)
 
     @property
     def member(self) -> Member:

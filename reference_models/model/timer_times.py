@@ -1,4 +1,4 @@
-"""When an index timer may call back at the earliest and must at the latest, by the vendor's readings (10.3.2)."""
+"""When a timer may call back at the earliest and must at the latest, by the vendor's readings (10.3)."""
 
 from __future__ import annotations
 
@@ -14,6 +14,12 @@ from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCall
 
 CLOCKS = {"local": LOCAL, "synchronized": SYNCHRONIZED}
 """The readings of ``absolute-clock``, with the method that reads each clock."""
+
+_FIRST = {
+    "index": ("first-periodic-expiry", "delay-plus-rate"),
+    "object": ("first-repeated-trigger", "delay-plus-interval"),
+}
+"""The option that says when a timer that repeats calls back first, and its reading that makes that later."""
 
 MOST = 100
 """So many callbacks of one timer are judged one by one: a framework may call back without end."""
@@ -48,8 +54,8 @@ def _after(runtime: ObservedRuntime, timer: Timer, number: int) -> int:
     """How long after the first instant callback ``number`` is due."""
     if timer.rate is None:
         return 0
-    is_later = runtime.ics.reading("first-periodic-expiry") == "delay-plus-rate"
-    return (number + is_later) * timer.rate.lasts
+    option, later = _FIRST[timer.kind]
+    return (number + (runtime.ics.reading(option) == later)) * timer.rate.lasts
 
 
 def _begun(runtime: ObservedRuntime, timer: Timer) -> tuple[int, int] | None:

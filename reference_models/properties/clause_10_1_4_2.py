@@ -26,13 +26,21 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 _WRITTEN, _LONG_TEXTS, _TEXTS = "R-10.1.4.2-26", "R-10.1.4.2-47", "R-10.1.4.2-53"
 _PORT_TRACE, _NAMED_METHODS = "R-10.1.4.2-04", "R-10.1.4.2-32"
 
-_REFERENCES = {s.CLOCK: "R-10.1.4.1-06", s.COMPONENT_TRACE: "R-10.1.4.2-03", s.INDEX_TIMERS: "R-10.3.2-23"}
-_SEVERAL, _SEVERAL_TIMERS = "R-10.1.4.2-02", "R-10.3-09"
+_REFERENCES = {
+    s.CLOCK: "R-10.1.4.1-06",
+    s.COMPONENT_TRACE: "R-10.1.4.2-03",
+    s.INDEX_TIMERS: "R-10.3.2-23",
+    s.OBJECT_TIMERS: "R-10.3.1-17",
+}
+_SEVERAL = "R-10.1.4.2-02"
+_SEVERAL_TIMERS = {s.INDEX_TIMERS: "R-10.3-09", s.OBJECT_TIMERS: "R-10.3-10"}
 _TOO_MANY = "too many"
 _SHOWN = 60
 
 
-@property_at("entered", *_REFERENCES.values(), _SEVERAL, _SEVERAL_TIMERS, at=("on_startup",), feature="policies")
+@property_at(
+    "entered", *_REFERENCES.values(), _SEVERAL, *_SEVERAL_TIMERS.values(), at=("on_startup",), feature="policies"
+)
 def policy_references(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """on_startup hands over a reference for each port element that a component requires by its policies, at every start."""
     event, member, ongoing, _ = callback
@@ -47,7 +55,7 @@ def policy_references(check: Property, runtime: ObservedRuntime, callback: Callb
             continue
         others = [e for e, d in elements.items() if d == definition and e in given]
         named = any(dependency.port == element for dependency in event.dependencies or ())
-        of_several = _SEVERAL_TIMERS if definition == s.INDEX_TIMERS else _SEVERAL
+        of_several = _SEVERAL_TIMERS.get(definition, _SEVERAL)
         yield check.fail(
             f"{definition} {'null' if named else 'missing'}",
             expected=f"on_startup of '{member.lane}' hands over a reference for {element}, which its {definition} provides",

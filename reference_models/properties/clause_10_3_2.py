@@ -1,4 +1,4 @@
-"""Properties about index timers as such: components with them are started, get the service, and provide the callback (10.3.2)."""
+"""Properties about index timers as such: their service returns, and they call on_timeout (10.3.2)."""
 
 from __future__ import annotations
 
@@ -6,93 +6,19 @@ from collections.abc import Generator
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
-from ucm_cts.adapters.contract.scenario import Declaration
-from ucm_cts.adapters.contract.trace import Raise
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
-from ucm_cts.reference_models.model import execution_policies as policies
-from ucm_cts.reference_models.model.callback_history import Callback
-from ucm_cts.reference_models.model.index_timers import all_timers, is_callback, service_calls_of, timer_phases
+from ucm_cts.reference_models.model.index_timers import is_callback, service_calls_of, timer_phases
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, shown
-from ucm_cts.reference_models.model.runtime import has_meaningless_values, lane, raises
-from ucm_cts.reference_models.model.service_policies import has_several_clocks, has_timers, policies_of, policy_elements
-from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback, TimerPhase, time_out_of
+from ucm_cts.reference_models.model.runtime import lane
+from ucm_cts.reference_models.model.service_policies import policies_of
+from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerPhase, time_out_of
 from ucm_cts.reference_models.model.timer_times import earliest
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_SUPPORTED, _CALLBACK, _SERVICE, _NOT_WITHOUT = "R-10.3.2-19", "R-10.3.2-20", "R-10.3.2-23", "R-10.3.2-24"
-_SEVERAL, _AT_ONCE = "R-10.3-09", "R-10.3.2-41"
+_CALLBACK, _SERVICE, _SEVERAL, _AT_ONCE = "R-10.3.2-20", "R-10.3.2-23", "R-10.3-09", "R-10.3.2-41"
 _SERVICE_METHODS = s.TIMER_METHODS - {s.ON_TIMEOUT}
-
-
-@property_at("ended", _SUPPORTED, _SEVERAL, at=("add_component", "start"), feature="timers")
-def timers_supported(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
-    """A component with index timers is added and started; one with two policies for them may be refused."""
-    if isinstance(ongoing.step, s.AddComponent):
-        declaration = runtime.scenario.components.get(ongoing.step.component)
-        if not isinstance(ongoing.end, Raise) or declaration is None or ongoing.container.started is not False:
-            return
-        if not has_meaningless_values(declaration, ongoing.step):
-            yield from _refused(check, runtime, declaration, "add_component", ongoing.end)
-        return
-    for member in ongoing.container.live_members():
-        if not has_timers(member.declaration):
-            continue
-        if isinstance(ongoing.end, Raise):
-            if len(ongoing.container.live_members()) == 1 and member.connected:
-                yield from _refused(check, runtime, member.declaration, "start", ongoing.end)
-        elif ongoing.judged and "on_startup" in [c.hook for c in ongoing.by_body.get(member.body, ())]:
-            if len(policies_of(member.declaration, s.INDEX_TIMERS)) == 1:
-                yield check.kept()
-                if any(not has_timers(other.declaration) for other in ongoing.container.live_members()):
-                    yield check.kept(_SEVERAL)
-            elif not (yield from takes(runtime, "second-timer-policy", "separate")):
-                yield check.fail(
-                    "second policy",
-                    expected=f"'{member.lane}', which has two policies for index timers, is refused, as declared",
-                    observed="start returned",
-                    event=ongoing.end,
-                    requirement=_SEVERAL,
-                )
-
-
-def _refused(
-    check: Property, runtime: ObservedRuntime, declaration: Declaration, operation: str, end: Raise
-) -> Conclusions:
-    timers = policies_of(declaration, s.INDEX_TIMERS)
-    others = policies_of(declaration, s.COMPONENT_TRACE, s.PORT_TRACE)
-    excused = others or has_several_clocks(declaration) or policies.is_contradictory(declaration)
-    excused = excused or policies.extended_policy(declaration) is not None or policies.has_unknown_policy(declaration)
-    if not timers or excused or raises(declaration, "on_init", "on_startup", "set_container_interface"):
-        return
-    if len(timers) > 1:
-        if not (yield from takes(runtime, "second-timer-policy", "refused")):
-            expected = "a component with two policies for index timers is added and started, as declared"
-            yield check.refused(operation, end, expected=expected, cause="second policy", requirement=_SEVERAL)
-        return
-    yield check.refused(operation, end, expected="a component with index timers is added and started")
-
-
-@property_at("entered", _NOT_WITHOUT, at=("on_startup",), feature="timers")
-def no_timers_without_policy(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
-    """on_startup hands over no reference of the service to a component without the policy."""
-    event, member, ongoing, _ = callback
-    if member is None or member.operational or has_timers(member.declaration):
-        return
-    of_others = {e for d in runtime.scenario.components.values() for e in policy_elements(d, s.INDEX_TIMERS)}
-    given = {d.port for d in event.dependencies or () if any(r is not None for r in d.references)}
-    wrong = sorted(of_others & given - {*member.declaration.requires})
-    if not wrong:
-        yield check.kept()
-        return
-    yield check.fail(
-        "without policy",
-        expected=f"'{member.lane}', which has no timers, is handed no reference for {wrong[0]}",
-        observed="it was handed one",
-        during=(ongoing, event),
-    )
 
 
 @property_at("delivered", _CALLBACK, feature="timers")
@@ -153,7 +79,7 @@ def _may_raise(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) ->
     before = [t for t in phase.timers if t.number == timer.number and t.call.request.n < call.request.n]
     if timer.is_contested or any(t.is_started and t.waits(call.request.n) for t in before):
         reasons.append(("number-in-use", "refuse"))
-    if timer.delay == (0, False):
+    if timer.has_no_delay:
         reasons.append(("zero-delay", "refused"))
     if timer.delay.is_absolute:
         reasons.append(("past-time", "refused"))
@@ -182,9 +108,10 @@ def _is_known(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) -> 
 @property_at("closed", _AT_ONCE, feature="timers", timed=True)
 def timer_service_returns_at_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Starting and cancelling a timer do not wait for its expiry."""
-    for timer in all_timers(runtime):
-        for call in (timer.call, *timer.cancels) if timer.has_usual_times and not timer.is_contested else ():
-            yield from _returned(check, runtime, timer, call)
+    for phase in timer_phases(runtime):
+        for timer in phase.timers:
+            for call in (timer.call, *timer.cancels) if timer.has_usual_times and not timer.is_contested else ():
+                yield from _returned(check, runtime, timer, call)
 
 
 def _returned(check: Property, runtime: ObservedRuntime, timer: Timer, call: MethodCall) -> Conclusions:
@@ -234,8 +161,3 @@ def _lasts(call: MethodCall) -> int:
     arguments = call.request.arguments or ()
     time = time_out_of(arguments[1]) if len(arguments) > 1 else None
     return time.lasts if time is not None and not time.is_absolute else 0
-
-
-def at_of(timer: Timer, *callbacks: TimerCallback) -> tuple[int, ...]:
-    """The events of a finding: how the timer was started, and its callbacks."""
-    return (timer.call.request.n, *(c.n for c in callbacks))

@@ -16,6 +16,7 @@ from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.connectors import Link
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
 from ucm_cts.adapters.reference.python.members import HasMembers, Member
+from ucm_cts.adapters.reference.python.object_timers import ScheduledTimer, Triggers
 from ucm_cts.adapters.reference.python.pacing import Pace, PacedExecutor
 from ucm_cts.adapters.reference.python.request_response import RequestResponseLink
 from ucm_cts.adapters.reference.python.shared_data import SharedDataLink
@@ -26,7 +27,8 @@ POLICIES = ("10.1.3",)
 REQUESTS = ("10.4.1",)
 SHARED = ("10.4.2",)
 PACED = ("10.5",)
-TIMED = ("10.3",)
+TIMED = ("10.3.2",)
+TRIGGERED = ("10.3.1",)
 CORE = ("10.1.1", "10.1.2", "10.1.4", "10.1.5", "10.1.6")
 
 MISSING_CALLBACKS = (
@@ -40,6 +42,9 @@ MISSING_CALLBACKS = (
     "R-10.3-04",
 )
 """What a callback of a timer that does not come breaks, by what sets its timer apart."""
+
+MISSING_TRIGGERS = ("R-10.3.1-18", "R-10.3.1-23", "R-10.3.1-32", "R-10.3.1-34", "R-10.3.1-36")
+"""The same for triggers of object timers."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +119,7 @@ def bind(name: str, part: type, doc: str | None = None) -> type[ReferenceAdapter
     """An adapter for the reference framework with ``part`` in the place where it belongs.
 
     A ``Link`` is the class of all connectors of 10.1, a ``RequestResponseLink`` of those of 10.4.1, a ``SharedDataLink`` of those of
-    10.4.2; a ``Pace`` and a ``PacedExecutor`` serve components of 10.5, ``Timers`` those of 10.3.2; a ``Proxy`` is what ``get_port_element`` returns, a ``PeerProxy`` what components get at start, and any other class is a
+    10.4.2; a ``Pace`` and a ``PacedExecutor`` serve components of 10.5, ``Timers`` those of 10.3.2, ``Triggers`` and ``ScheduledTimer`` those of 10.3.1; a ``Proxy`` is what ``get_port_element`` returns, a ``PeerProxy`` what components get at start, and any other class is a
     mixin in front of both container classes.
     """
     mixin = part
@@ -128,6 +133,10 @@ def bind(name: str, part: type, doc: str | None = None) -> type[ReferenceAdapter
         mixin = type(name, (Base,), {"pace_class": part})
     elif issubclass(part, PacedExecutor):
         mixin = type(name, (Base,), {"paced_executor_class": part})
+    elif issubclass(part, ScheduledTimer):
+        mixin = type(name, (Base,), {"triggers_class": type(name, (Triggers,), {"timer_class": part})})
+    elif issubclass(part, Triggers):
+        mixin = type(name, (Base,), {"triggers_class": part})
     elif issubclass(part, Timers):
         mixin = type(name, (Base,), {"timers_class": part})
     elif issubclass(part, Proxy):

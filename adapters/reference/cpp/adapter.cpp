@@ -1,9 +1,11 @@
-// Binds the C++ reference framework: the only place that knows both it and the SDK (with hosting.hpp and values.hpp).
+// Binds the C++ reference framework: the only place that knows both it and the SDK (with hosting.hpp, object_timers.hpp and
+// values.hpp).
 #include <cstdlib>
 
 #include <ucm_cts/main.hpp>
 
 #include "hosting.hpp"
+#include "object_timers.hpp"
 #include "values.hpp"
 
 namespace {
@@ -83,6 +85,11 @@ namespace reference_cpp {
 std::shared_ptr<lwucm::PortElementObject> Lwucm::typed(const ucm_cts::Reference& own,
                                                        const ucm_cts::SharedInterface& interface) {
     return std::make_shared<ProbeElement>(own, lwucm_interface(*interface));
+}
+
+std::shared_ptr<ucm_cts::TimerScheduler> Lwucm::scheduler(const std::shared_ptr<PortElementObject>& element) {
+    const auto scheduler = std::dynamic_pointer_cast<lwucm::ott_scheduler>(element);
+    return scheduler ? std::make_shared<WrappedScheduler>(scheduler) : nullptr;
 }
 
 ucm_cts::Data Lwucm::call(PortElementObject& element, const std::string& name, const ucm_cts::Data& arguments) {

@@ -36,6 +36,7 @@ struct Lwucm {
 
     static std::shared_ptr<PortElementObject> typed(const ucm_cts::Reference& own,
                                                     const ucm_cts::SharedInterface& interface);
+    static std::shared_ptr<ucm_cts::TimerScheduler> scheduler(const std::shared_ptr<PortElementObject>& element);
     static ucm_cts::Data call(PortElementObject& element, const std::string& method, const ucm_cts::Data& arguments);
 };
 

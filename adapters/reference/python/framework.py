@@ -18,11 +18,11 @@ from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.reference.python.connectors import AnyLink, Link
 from ucm_cts.adapters.reference.python.container_services import Record
 from ucm_cts.adapters.reference.python.extensions import UsesExtensions
-from ucm_cts.adapters.reference.python.index_timers import SetsTimers
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
+from ucm_cts.adapters.reference.python.object_timers import SchedulesTimers
 
 
-class Container(SetsTimers, UsesExtensions):
+class Container(SchedulesTimers, UsesExtensions):
     """Members with a common life cycle (11.2.2.1)."""
 
     manager: ContainerManager

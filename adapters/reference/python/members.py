@@ -34,6 +34,7 @@ class Member:
         self.execution = Execution(implementation.policies)
         self.traced: dict[str, pm.PortElementObject] = {}
         self.timers: Timers | None = None
+        self.schedulers: list[Timers] = []
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The timers of one component (10.3.2): set and cancelled by number, from one start of its container to the next stop.
+"""The timers of one component (10.3): set and cancelled by number, from one start of its container to the next stop.
 
 One thread calls back, one timer after the other. All times are seconds of the monotonic clock. Variants replace ``Timers``.
 """
@@ -104,11 +104,16 @@ class Timers:
         with self._changed:
             if self._waiting.get(timer.number) is not timer:
                 return False
-            if timer.rate is None:
+            following = self._following(timer)
+            if following is None:
                 del self._waiting[timer.number]
             else:
-                self._waiting[timer.number] = replace(timer, due=self._next_due(timer, timer.rate))
+                self._waiting[timer.number] = following
             return True
+
+    def _following(self, timer: Timer) -> Timer | None:
+        """What waits after ``timer`` was taken; None if nothing does."""
+        return None if timer.rate is None else replace(timer, due=self._next_due(timer, timer.rate))
 
     def _next_due(self, timer: Timer, rate: float) -> float:
         """A fixed grid; callbacks that were missed are caught up."""

@@ -1,4 +1,4 @@
-"""Values of UCM types inside a probe: received values are copied before any other code can change them."""
+"""What a probe receives: values of UCM types and connections, copied before any other code can change them."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import PortConnection, PortElementObject
 from ucm_cts.adapters.contract.trace import MOST
 
 T = TypeVar("T")
@@ -72,9 +73,38 @@ def overwrite(values: list[Datum]) -> None:
             values[index] = not value
         elif isinstance(value, int):
             values[index] = int(value == 0)
-        else:
+        elif isinstance(value, str):
             values[index] = value + "?"
 
 
 def _copy(value: Any) -> Datum:
     return [_copy(one) for one in value] if isinstance(value, list | tuple) else value
+
+
+Given = list[tuple[str, tuple[PortElementObject | None, ...]]]
+
+
+def read_connections(dependencies: Sequence[PortConnection]) -> tuple[Given, str]:
+    """The names and references that on_startup was given, and what of it is of a wrong type."""
+    given: Given = []
+    try:
+        for connection in at_most(dependencies):
+            name = connection.from_port
+            if not isinstance(name, str):
+                return [], f"{in_words(name)} as the name of a port element"
+            try:
+                given.append((str.__str__(name), at_most(connection.to_port)))
+            except TooMany as many:
+                return [], f"{many} references of {name}"
+            except TypeError:
+                return [], f"{in_words(connection.to_port)} as the references of {name}"
+    except TooMany as many:
+        return [], f"{many} connections"
+    except Exception:  # noqa: BLE001 - the object is the framework's
+        return [], f"{in_words(dependencies)} as its connections"
+    return given, ""
+
+
+def named(port: object) -> dict[str, Any]:
+    """The name of a port element as ``enter`` records it."""
+    return {"port": str.__str__(port)} if isinstance(port, str) else {"wrong": in_words(port)}

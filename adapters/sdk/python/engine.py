@@ -224,12 +224,15 @@ def _text(error: BaseException) -> str:
 
 
 _PARTS = (
+    "calls",
     "counting",
     "data",
     "engine",
     "gates",
+    "memory",
     "operations",
     "probe",
+    "probe_parts",
     "reach",
     "recorder",
     "seal",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,10 +12,21 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
+from ucm_cts.adapters.sdk.python.calls import call_port, call_timer, is_timer, schedule
 from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
-from ucm_cts.adapters.sdk.python.data import TooMany, at_most, in_words, is_datum, overwrite, snapshot
+from ucm_cts.adapters.sdk.python.data import (
+    TooMany,
+    at_most,
+    in_words,
+    is_datum,
+    named,
+    overwrite,
+    read_connections,
+    snapshot,
+)
 from ucm_cts.adapters.sdk.python.gates import Gates
 from ucm_cts.adapters.sdk.python.memory import Entry, Memory
+from ucm_cts.adapters.sdk.python.probe_parts import ProbeExecution, ProbeHandler, ProbePort
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
 
@@ -87,30 +98,6 @@ class Stage(Kept):
         return "opaque"
 
 
-class ProbePort(pm.PortElementObject, metaclass=KeptClass):
-    """A provided port element of a probe."""
-
-    def __init__(self, probe: Probe, port: str) -> None:
-        self.probe = probe
-        self.identity = t.Reference(probe.component, probe.instance, port)
-
-    def exchange(self, value: int) -> int:
-        return self.probe.exchange(self.identity.port, value)
-
-    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        return self.probe.call(self.identity.port, method, arguments)
-
-
-class ProbeExecution(pm.ComponentExecution, metaclass=KeptClass):
-    """What a self-executing probe provides to its container."""
-
-    def __init__(self, probe: Probe) -> None:
-        self.probe = probe
-
-    def run(self) -> None:
-        self.probe.run()
-
-
 class Probe(pm.ComponentObject, metaclass=KeptClass):
     """The ``instance``-th body made for ``component``. Silent, and without a plan, once the recording has stopped."""
 
@@ -124,6 +111,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._execution = ProbeExecution(self) if executes_itself else None
         has_timers = any(policy.definition == s.INDEX_TIMERS for policy in declaration.policies)
         self._timer_callback = ProbePort(self, s.TIMER_CALLBACK) if has_timers else None
+        self._handlers = {name: ProbeHandler(self, name) for name in declaration.handlers}
         self._attributes: dict[str, str] = {}
         self._references: dict[str, list[pm.PortElementObject]] = {}
         self._given = Memory(declaration.plan)
@@ -131,7 +119,8 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
 
     def parts(self) -> tuple[object, ...]:
         """All that frameworks are given of it."""
-        return (self, *self._ports.values(), *filter(None, [self._execution, self._timer_callback]))
+        elements = filter(None, [self._execution, self._timer_callback])
+        return (self, *self._ports.values(), *self._handlers.values(), *elements)
 
     def set_attribute(self, name: str, value: str) -> None:
         if isinstance(name, str):
@@ -141,7 +130,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._visit("on_init", attributes=dict(self._attributes))
 
     def on_startup(self, dependencies: Sequence[pm.PortConnection]) -> None:
-        given, wrong = _read(dependencies)
+        given, wrong = read_connections(dependencies)
         self._references = {}
         for port, references in given:
             self._references.setdefault(port, []).extend(r for r in references if r is not None)
@@ -211,20 +200,8 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             self.stage.messages.add(self.component, self.instance, int(arguments[0]))  # type: ignore[arg-type]
             return ["ok"]
         given = snapshot(arguments)
-        entry = self._given.entry(
-            method,
-            given,
-            lambda: self._record(t.Enter, hook="method", port=port, method=method, arguments=given, wrong=wrong),
-        )
-        answer = s.Answer(method, ())
-        for action in plan:
-            if isinstance(action, s.RaiseError):
-                self._record(t.Exit, hook="method", raised=True)
-                raise PlannedFailure(f"{self.component} fails in {method}, as planned")
-            if not isinstance(action, s.Answer):
-                self._act(action, entry)
-            elif action.method == method:
-                answer = action
+        entry = self._enter(port, method, given, wrong)
+        answer = self._follow(method, entry)
         results = snapshot(given if answer.results is None else answer.results)
         self._record(t.Exit, hook="method", results=snapshot(results), exception=answer.exception)
         if answer.overwrite and isinstance(arguments, list):
@@ -232,6 +209,49 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         if answer.exception is not None:
             raise pm.DeclaredException(answer.exception, results)
         return list(results)
+
+    def on_trigger(self, handler: str, timer: Any, delta_time: Any, round_: Any) -> None:
+        """The method of its ``handler``, which gives no results."""
+        if not self.stage.recorder.recording:
+            return
+        arguments = [delta_time, round_]
+        if not is_timer(timer):
+            wrong = f"{in_words(timer)} as the timer"
+        else:
+            wrong = "" if is_datum(arguments) else in_words(arguments)
+        given = snapshot(arguments) if not wrong else ()
+        entry = self._enter(handler, s.ON_TRIGGER, given, wrong, None if wrong else timer)
+        self._follow(s.ON_TRIGGER, entry)
+        self._record(t.Exit, hook="method", results=())
+
+    def _enter(self, port: str, method: str, given: tuple[Datum, ...], wrong: str, timer: Any = None) -> Entry:
+        """Record an entry at a method, with the object timer that came with it."""
+
+        def record(entry: Entry) -> None:
+            self._record(
+                t.Enter,
+                hook="method",
+                port=port,
+                method=method,
+                arguments=given,
+                wrong=wrong,
+                timer=entry.timer,
+            )
+
+        return self._given.entry(method, given, record, timer)
+
+    def _follow(self, method: str, entry: Entry) -> s.Answer:
+        """Carry out the plan for an entry at ``method``; returns what it answers."""
+        answer = s.Answer(method, ())
+        for action in self._plan.get("method", ()):
+            if isinstance(action, s.RaiseError):
+                self._record(t.Exit, hook="method", raised=True)
+                raise PlannedFailure(f"{self.component} fails in {method}, as planned")
+            if not isinstance(action, s.Answer):
+                self._act(action, entry)
+            elif action.method == method:
+                answer = action
+        return answer
 
     def _visit(self, hook: Hook, result: int | None = None, **arguments: Any) -> int | None:
         """Record ``enter``, carry out the plan, record ``exit``; returns the hook's result."""
@@ -257,11 +277,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             for reference in tuple(self._references.get(action.port, ())):
                 self._call(action.port, reference, action.value)
         elif isinstance(action, s.CallMethod):
-            arguments = self._given.arguments(action, entry)
-            if arguments is not None and action.from_clock is not None:
-                arguments = self._dated(action.from_clock, arguments)
-            for reference in tuple(self._references.get(action.port, ())) if arguments is not None else ():
-                self._call_method(action, reference, arguments or ())
+            self._act_on(action, entry)
         elif isinstance(action, s.Burst):
             for reference in tuple(self._references.get(action.port, ())):
                 self._push(action, reference)
@@ -271,10 +287,31 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         elif isinstance(action, s.QuerySiblings):
             self._query_siblings()
 
+    def _act_on(self, action: s.CallMethod, entry: Entry) -> None:
+        """Make the calls of ``action``, if what they need is there."""
+        arguments = self._given.arguments(action, entry)
+        if arguments is not None and action.from_clock is not None:
+            arguments = self._dated(action.from_clock, arguments)
+        if arguments is None:
+            return
+        if action.on is not None:
+            found = self._given.timer(action.on, entry)
+            if found is not None:
+                number, timer = found
+                self._call_method(action, call_timer(timer, action.method), arguments, number)
+            return
+        for reference in tuple(self._references.get(action.port, ())):
+            if action.handler is not None:
+                call = schedule(reference, action.method, self._handlers.get(action.handler))
+            else:
+                call = call_port(reference, action.method)
+            self._call_method(action, call, arguments)
+
     def _dated(self, of: s.FromClock, arguments: tuple[Datum, ...]) -> tuple[Datum, ...] | None:
         """``arguments`` with a date; None if the body holds no clock, or it gives no time."""
         clocks = self._references.get(of.port, ())
-        time = self._call_method(s.CallMethod(of.port, of.method), clocks[0], ()) if clocks else ()
+        reading = s.CallMethod(of.port, of.method)
+        time = self._call_method(reading, call_port(clocks[0], of.method), ()) if clocks else ()
         return s.date_from(arguments, of.argument, time)
 
     def _call(self, port: str, reference: pm.PortElementObject, value: int) -> None:
@@ -288,14 +325,25 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._record(t.Reply, port=port, **given)
 
     def _call_method(
-        self, action: s.CallMethod, reference: pm.PortElementObject, given: tuple[Datum, ...]
+        self,
+        action: s.CallMethod,
+        call: Callable[[list[Datum]], Any],
+        given: tuple[Datum, ...],
+        timer: int | None = None,
     ) -> Sequence[Datum]:
-        """Returns the results as recorded, nothing if it raised."""
+        """Returns the results as recorded, nothing if it raised. ``timer`` is the number of the object timer that is called."""
         arguments = list(snapshot(given))
         answer: Sequence[Datum] = ()
-        self._record(t.Request, port=action.port, method=action.method, arguments=given)
+        self._record(
+            t.Request,
+            port=action.port,
+            method=action.method,
+            arguments=given,
+            handler=action.handler,
+            timer=timer,
+        )
         try:
-            results = reference.call(action.method, arguments)
+            results = call(arguments)
         except pm.DeclaredException as error:
             answer = self._reply(action, error.fields, error.name)
         except Exception:  # noqa: BLE001 - the callee may raise anything
@@ -307,12 +355,28 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
 
     def _reply(self, action: s.CallMethod, results: Any, exception: str | None = None) -> Sequence[Datum]:
         wrong = ""
+        if action.handler is not None and exception is None:
+            self._reply_with_timer(action, results)
+            return ()
         if not (isinstance(results, list | tuple) and is_datum(results)):
             wrong, results = in_words(results), ()
         elif not isinstance(exception, str | None):
             wrong, exception = f"an exception called {in_words(exception)}", None
         self._record(t.Reply, port=action.port, results=snapshot(results), exception=exception, wrong=wrong)
         return () if exception is not None else snapshot(results)
+
+    def _reply_with_timer(self, action: s.CallMethod, results: Sequence[Any]) -> None:
+        """A scheduler has returned: a timer, nothing, or anything else."""
+
+        def record(number: int | None = None, wrong: str = "") -> None:
+            self._record(t.Reply, port=action.port, results=(), wrong=wrong, timer=number)
+
+        if not results:
+            record()
+        elif is_timer(results[0]):
+            self._given.take_timer(action.method, results[0], record)
+        else:
+            record(wrong=f"{in_words(results[0])} as the timer")
 
     def _push(self, action: s.Burst, reference: pm.PortElementObject) -> None:
         answers: dict[str, int] = {}
@@ -353,10 +417,10 @@ class ConnectableProbe(Probe, pm.Connectable):
     """A probe that is informed of each connection."""
 
     def on_connect(self, port_name: str, required: pm.PortElementObject | None) -> None:
-        self._visit("on_connect", reference=self.stage.recognise(required), **_named(port_name))
+        self._visit("on_connect", reference=self.stage.recognise(required), **named(port_name))
 
     def on_disconnect(self, port_name: str) -> None:
-        self._visit("on_disconnect", **_named(port_name))
+        self._visit("on_disconnect", **named(port_name))
 
 
 class FragmentProbe(Probe, pm.FragmentObject):
@@ -369,35 +433,6 @@ class FragmentProbe(Probe, pm.FragmentObject):
 
 class ConnectableFragmentProbe(ConnectableProbe, FragmentProbe):
     """A fragment that is informed of each connection."""
-
-
-Given = list[tuple[str, tuple[pm.PortElementObject | None, ...]]]
-
-
-def _read(dependencies: Sequence[pm.PortConnection]) -> tuple[Given, str]:
-    """The names and references that on_startup was given, and what of it is of a wrong type."""
-    given: Given = []
-    try:
-        for connection in at_most(dependencies):
-            name = connection.from_port
-            if not isinstance(name, str):
-                return [], f"{in_words(name)} as the name of a port element"
-            try:
-                given.append((str.__str__(name), at_most(connection.to_port)))
-            except TooMany as many:
-                return [], f"{many} references of {name}"
-            except TypeError:
-                return [], f"{in_words(connection.to_port)} as the references of {name}"
-    except TooMany as many:
-        return [], f"{many} connections"
-    except Exception:  # noqa: BLE001 - the object is the framework's
-        return [], f"{in_words(dependencies)} as its connections"
-    return given, ""
-
-
-def _named(port: object) -> dict[str, Any]:
-    """The name of a port element as ``enter`` records it."""
-    return {"port": str.__str__(port)} if isinstance(port, str) else {"wrong": in_words(port)}
 
 
 _KINDS: dict[tuple[bool, bool], type[Probe]] = {

@@ -1,4 +1,4 @@
-"""Components with index timers (10.3.2) that set and cancel timers when they are told to, and the steps that tell them."""
+"""Components with index timers (10.3.2) that set and cancel timers when they are told to, and the steps that tell components with timers."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, CallMethod, Declaration, Hook, Policy, Scenario, Step
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.reference_models.model.clock_readings import LOCAL, SYNCHRONIZED
+from ucm_cts.reference_models.model.timer_events import Kind
 
 PORT, OTHER_PORT = "in.api", "aux.api"
 SERVICE, CLOCK = "timer.timer_service", "clock.clock_api"
@@ -97,9 +98,12 @@ def after(seconds: float) -> Step:
     return s.Pause(round(seconds * 1000) + AFTERWARDS)
 
 
-def purposes_about(name: str, requirements: str, *scenarios: tuple[str, Scenario], under: str = "") -> TestPurpose:
-    """A purpose of 10.3.2; ``requirements`` are the numbers of its requirements, those of 10.3 with a dot."""
-    ids = tuple(f"R-10.3{'-' if one[0] == '.' else '.2-'}{one.lstrip('.')}" for one in requirements.split())
+def purposes_about(
+    name: str, requirements: str, *scenarios: tuple[str, Scenario], under: str = "", kind: Kind = "index"
+) -> TestPurpose:
+    """A purpose of timers of this ``kind``; ``requirements`` are the numbers of its requirements, those of 10.3 with a dot."""
+    clause = "10.3.2" if kind == "index" else "10.3.1"
+    ids = tuple(f"R-{'10.3' if one[0] == '.' else clause}-{one.lstrip('.')}" for one in requirements.split())
     cases = tuple((f"{name}/{case}", scenario) for case, scenario in scenarios)
-    text = f"Index timers: {name}."
-    return TestPurpose(f"index timers/{name}", "10.3.2", text, ids, cases, under=(under,) if under else ())
+    text = f"{kind.capitalize()} timers: {name}."
+    return TestPurpose(f"{kind} timers/{name}", clause, text, ids, cases, under=(under,) if under else ())

@@ -134,15 +134,18 @@ class Wording:
             case "exchange":
                 return one_line(f"exchange({event.value}) on {event.port}", 90)
             case "method":
-                return one_line(f"{event.method}({self.data(event.arguments)}) on {event.port}", 90)
+                given = self.listed(self.timer(event.timer), self.data(event.arguments))
+                return one_line(f"{event.method}({given}) on {event.port}", 90)
             case _:
                 arguments = ""
         return one_line(f"{event.hook}({arguments})", 90)
 
     def request(self, event: Request) -> str:
         """The call that a body makes."""
-        called = f"exchange({event.value})" if event.method is None else f"{event.method}({self.data(event.arguments)})"
-        return f"{called} through {event.port}"
+        if event.method is None:
+            return f"exchange({event.value}) through {event.port}"
+        called = f"{event.method}({self.listed(event.handler or '', self.data(event.arguments))})"
+        return f"{called} of {self.timer(event.timer)}" if event.timer is not None else f"{called} through {event.port}"
 
     def outcome(self, event: Exit | Reply) -> str:
         """The result of a call or a hook; empty for none."""
@@ -150,7 +153,19 @@ class Wording:
             return "an exception"
         if event.exception is not None:
             return one_line(f"{event.exception}({self.data(event.results)})", 90)
-        return self.value(event.value) if event.results is None else one_line(self.data(event.results), 90)
+        timer = event.timer if isinstance(event, Reply) else None
+        shown = self.listed(self.timer(timer), self.data(event.results))
+        return self.value(event.value) if event.results is None else one_line(shown, 90)
+
+    @staticmethod
+    def timer(number: int | None) -> str:
+        """An object timer, by the number of the reference; empty for none."""
+        return f"reference {number}" if number is not None else ""
+
+    @staticmethod
+    def listed(*parts: str) -> str:
+        """The parts that are there."""
+        return ", ".join(part for part in parts if part)
 
     @staticmethod
     def data(values: Sequence[Datum] | None) -> str:

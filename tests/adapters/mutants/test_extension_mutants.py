@@ -5,12 +5,13 @@ from __future__ import annotations
 import pytest
 from pipeline import check_killed
 
-from ucm_cts.adapters.mutants.python import PACED, REQUESTS, SHARED, TIMED, Mutant, mutants_of, variants_of
+from ucm_cts.adapters.mutants.python import PACED, REQUESTS, SHARED, TIMED, TRIGGERED, Mutant, mutants_of, variants_of
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.purposes.derived.index_timers import index_timer_purposes
+from ucm_cts.harness.purposes.derived.object_timers import object_timer_purposes
 from ucm_cts.harness.purposes.derived.paced_calls import paced_call_purposes
 from ucm_cts.harness.purposes.derived.paced_policies import NAMES, policy_purposes
 from ucm_cts.harness.purposes.derived.paced_runs import run_purposes
@@ -24,14 +25,15 @@ from ucm_cts.reference_models.monitor import Monitor
 pytestmark = pytest.mark.slow
 
 PARTS = {
-    ("index-timers", "timers"): index_timer_purposes,
+    ("index-timers",): index_timer_purposes,
+    ("object-timers",): object_timer_purposes,
     ("request-response",): request_purposes,
     ("shared-data",): shared_data_purposes,
     ("execution", *NAMES): lambda: [*policy_purposes(), *run_purposes(), *paced_call_purposes()],
 }
 """The purposes of each part, or of parts that have some in common."""
 
-MUTANTS = mutants_of((*TIMED, *REQUESTS, *SHARED, *PACED))
+MUTANTS = mutants_of((*TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
 
 
 @pytest.mark.parametrize("mutant", MUTANTS.values(), ids=MUTANTS.keys())
@@ -39,7 +41,7 @@ def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
     check_killed(mutant)
 
 
-@pytest.mark.parametrize("name", variants_of((*TIMED, *REQUESTS, *SHARED, *PACED)))
+@pytest.mark.parametrize("name", variants_of((*TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED)))
 def test_conformant_framework_is_not_failed(name: str) -> None:
     result = examine_variant(all_variants()[name], Thoroughness())
     assert (result.failed, result.incidents, result.trouble) == ((), (), "")

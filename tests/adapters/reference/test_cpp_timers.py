@@ -7,18 +7,16 @@ from typing import Any
 
 import pytest
 from cpp_builds import Builds, events
+from cpp_timers import EXECUTIONS, TELL, check_times, first, replies, traced
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.harness.execution.integrity import contradiction
 
 pytestmark = pytest.mark.native
 
 TIMERS, CLOCK = "timer.timer_service", "clock.clock_api"
 POLICIES = (s.Policy(s.INDEX_TIMERS, element=TIMERS), s.Policy(s.CLOCK, element=CLOCK))
-LATE = 0.4
-"""Seconds. Callbacks come at most so much later on a machine that is busy otherwise."""
 
 
 def relative(seconds: int) -> list[Datum]:
@@ -58,18 +56,6 @@ def timed(
     return s.Declaration(("in",), plan=plan, policies=(*execution, *POLICIES))
 
 
-READY = (s.AddComponent("A"), s.GetPortElement("A", "in", "tell"), s.Start())
-TELL = s.Invoke("tell", 1)
-
-
-def traced(builds: Builds, component: s.Declaration, *steps: s.Step) -> tuple[t.Event, ...]:
-    scenario = s.Scenario({"A": component}, (*READY, *steps), 8000)
-    trace = events(builds.reference, scenario)
-    assert contradiction(scenario, trace) is None
-    assert not [e for e in trace if isinstance(e, t.Timeout)]
-    return trace
-
-
 def callbacks(trace: Sequence[t.Event]) -> list[t.Enter]:
     return [e for e in trace if isinstance(e, t.Enter) and e.port == s.TIMER_CALLBACK]
 
@@ -85,19 +71,8 @@ def dates(trace: Sequence[t.Event]) -> list[int]:
     return [seconds for seconds, _ in told]
 
 
-def replies(trace: Sequence[t.Event], port: str = TIMERS) -> list[Any]:
-    return [e.results for e in trace if isinstance(e, t.Reply) and e.port == port]
-
-
-def first(trace: Sequence[t.Event], method: str) -> t.Request:
-    return next(e for e in trace if isinstance(e, t.Request) and e.method == method)
-
-
-def check_times(trace: Sequence[t.Event], begin: int, due: Sequence[float], number: int | None = None) -> None:
-    """The callbacks, or those of ``number``, came so many seconds after ``begin``."""
-    came = [(e.t - begin) / 1e9 for e, n in zip(callbacks(trace), numbers(trace), strict=True) if number in (None, n)]
-    assert len(came) == len(due), came
-    assert all(at <= moment < at + LATE for moment, at in zip(came, due, strict=True)), came
+def of_number(trace: Sequence[t.Event], number: int) -> list[t.Enter]:
+    return [e for e, n in zip(callbacks(trace), numbers(trace), strict=True) if n == number]
 
 
 def test_callbacks_come_in_time_and_tell_the_date_when_they_were_due(builds: Builds) -> None:
@@ -112,7 +87,7 @@ def test_callbacks_come_in_time_and_tell_the_date_when_they_were_due(builds: Bui
     ((asked, micros),), *shown = replies(trace, CLOCK)
     dated = 2 - micros / 1e6 - 0.001  # the clock was read when the first call was over
     for number, due in {5: [1], 300: [1, 2], 2**32 - 1: [dated]}.items():
-        check_times(trace, begin.t, due, number)
+        check_times(of_number(trace, number), begin.t, due)
     for told, ((now, _),) in zip(dates(trace), shown, strict=True):
         assert told <= now <= told + 1
     assert asked + 2 in dates(trace)
@@ -133,10 +108,10 @@ def test_a_number_that_waits_stays_and_one_that_does_not_is_canceled(builds: Bui
         sporadic(1, relative(0), given=2),
     )
     trace = traced(builds, timed(*orders), TELL, s.Pause(1500), s.Invoke("tell", 2), s.Pause(1200), s.Stop())
-    answers = [results for results in replies(trace) if results]
+    answers = [results for results in replies(trace, TIMERS) if results]
     assert answers == [(False,), (True,), (True,), (True,)]
     assert numbers(trace) == [1, 2, 1]
-    check_times(trace, first(trace, s.START_SPORADIC).t, [1, 1, 1.5])
+    check_times(callbacks(trace), first(trace, s.START_SPORADIC).t, [1, 1, 1.5])
 
 
 def test_what_is_due_already_expires_at_once(builds: Builds) -> None:
@@ -149,14 +124,14 @@ def test_what_is_due_already_expires_at_once(builds: Builds) -> None:
     )
     trace = traced(builds, timed(*orders), TELL, s.Pause(300), s.Stop())
     assert sorted(numbers(trace)) == [1, 2, 3]
-    check_times(trace, first(trace, s.START_SPORADIC).t, [0, 0, 0])
+    check_times(callbacks(trace), first(trace, s.START_SPORADIC).t, [0, 0, 0])
     assert max(dates(trace)) - min(dates(trace)) <= 1, "a date that has passed is now"
 
 
 def test_missed_expiries_are_merged_and_the_grid_goes_on(builds: Builds) -> None:
     held = timed(periodic(1, 1, relative(1)), callback=(s.HoldAtGate("g"),))
     trace = traced(builds, held, TELL, s.ReachGate("g"), s.Pause(2500), s.OpenGate("g"), s.Pause(1000), s.Stop())
-    check_times(trace, first(trace, s.START_PERIODIC).t, [1, 3.5, 4])
+    check_times(callbacks(trace), first(trace, s.START_PERIODIC).t, [1, 3.5, 4])
     begin = dates(trace)[0]
     assert [date - begin for date in dates(trace)] == [0, 1, 3], "the first of those that were missed is told"
 
@@ -189,7 +164,9 @@ def test_timers_live_from_start_to_stop(builds: Builds) -> None:
         *("on_init", "on_startup", "method", "method", "method", "method", "on_shutdown"),
         *("on_startup", "method", "method", "on_shutdown", "on_remove"),
     ]
-    assert [results for results in replies(trace) if results] == [(True,), (True,)], "dropped before on_shutdown"
+    assert [results for results in replies(trace, TIMERS) if results] == [(True,), (True,)], (
+        "dropped before on_shutdown"
+    )
 
 
 def test_a_callback_may_set_and_cancel_timers(builds: Builds) -> None:
@@ -197,7 +174,7 @@ def test_a_callback_may_set_and_cancel_timers(builds: Builds) -> None:
     component = timed(*orders, callback=(sporadic(1, relative(1)), cancel(2), ask(2)))
     trace = traced(builds, component, TELL, s.Pause(1300), s.Stop())
     assert numbers(trace) == [1, 1]
-    check_times(trace, first(trace, s.START_SPORADIC).t, [0, 1])
+    check_times(callbacks(trace), first(trace, s.START_SPORADIC).t, [0, 1])
 
 
 def test_exceptions_of_callbacks_are_dropped(builds: Builds) -> None:
@@ -205,14 +182,6 @@ def test_exceptions_of_callbacks_are_dropped(builds: Builds) -> None:
         builds, timed(periodic(1, 0, relative(1)), callback=(s.RaiseError(),)), TELL, s.Pause(1300), s.Stop()
     )
     assert numbers(trace) == [1, 1]
-
-
-EXECUTIONS = {
-    "passive": (s.Policy(s.PROTECTED_PASSIVE),),
-    "active": (s.Policy(s.ACTIVE, "in"),),
-    "self-executing": (s.Policy(s.SELF_EXECUTING),),
-    "periodic": (s.Policy(s.PERIODIC_ACTIVE, "in", settings={"ppac_period": 1, "ppac_offset": 0, "ppac_priority": 1}),),
-}
 
 
 @pytest.mark.parametrize("execution", EXECUTIONS.values(), ids=EXECUTIONS)

@@ -15,6 +15,8 @@ from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.harness.execution.integrity import contradiction
 
 
 def without_times(answers: Sequence[m.FromHost]) -> list[Any]:
@@ -95,6 +97,64 @@ def test_policies_and_ids_of_other_frameworks(builds: Builds) -> None:
     assert [e.ids for e in trace if isinstance(e, t.Siblings)] == [(1,)]
     assert [e.attributes for e in trace if isinstance(e, t.Enter) and e.hook == "on_init"] == [{"a": "1"}]
     assert [e.error for e in trace if isinstance(e, t.Raise)] == ["NOT_FOUND", "NOT_FOUND", "BAD_PARAMETER"]
+
+
+def test_object_timers_of_other_frameworks(builds: Builds) -> None:
+    def call(method: str, *arguments: Datum, handler: str | None = "h") -> s.CallMethod:
+        return s.CallMethod("scheduler", method, arguments, handler=handler)
+
+    def ask(method: str, nth: int = 1, *arguments: Datum) -> s.CallMethod:
+        return s.CallMethod("scheduler", method, arguments, on=s.TimerFrom(s.SCHEDULE_ONCE, nth))
+
+    seven = [7, 8]
+    given = (call(s.SCHEDULE_ONCE, [1, 2]), call(s.SCHEDULE_ONCE, seven), call(s.SCHEDULE_ONCE, [0, 0]))
+    none = (call(s.SCHEDULE_REPEATED, seven, seven, 1), call(s.SCHEDULE_REPEATED, seven, seven, 0))
+    refused = (call(s.CANCEL), call(s.SCHEDULE_ONCE), call(s.SCHEDULE_ONCE, seven, handler="unknown"))
+    asked = (
+        ask(s.TIMER_ID, 2),
+        ask(s.TIMER_ROUNDS),
+        ask(s.IS_CANCELLED),
+        ask(s.CANCEL),
+        ask(s.TIMER_ID, 1, 1),
+        ask("x"),
+    )
+    actions = (*given, *none, *refused, *asked, ask(s.TIMER_ID, 3), s.CallMethod("scheduler", "x"))
+    timed = s.Declaration(
+        plan={"on_startup": actions, "method": (s.CallMethod("scheduler", s.TIMER_ID, on=s.TimerFrom(s.ON_TRIGGER)),)},
+        policies=(s.Policy(s.OBJECT_TIMERS, element="scheduler"),),
+        handlers=("h",),
+    )
+    scenario = s.Scenario({"T": timed}, (s.AddComponent("T"), s.Start()))
+    trace = events(builds.program("cells"), scenario)
+    assert contradiction(scenario, trace) is None
+    entered = [e for e in trace if isinstance(e, t.Enter) and e.hook == "method"]
+    assert [(e.port, e.method) for e in entered] == [("h", s.ON_TRIGGER)] * 3
+    assert [(e.arguments, e.timer, e.wrong) for e in entered] == [
+        (([1, 2], 2), 1, ""),
+        ((seven, 8), 3, ""),
+        ((), None, "null as the timer"),
+    ]
+    requests = [e for e in trace if isinstance(e, t.Request)]
+    assert [e.handler for e in requests if e.method == s.SCHEDULE_ONCE] == ["h", "h", "h", "h", "unknown"]
+    assert [(e.method, e.timer) for e in requests if e.timer] == [
+        (s.TIMER_ID, 1),
+        (s.TIMER_ID, 3),
+        *((action.method, 4 if action is asked[0] else 2) for action in asked),
+    ]
+    replies = [e for e in trace if isinstance(e, t.Reply)]
+    assert [(e.results, e.timer, e.exception, e.wrong) for e in replies if not e.raised] == [
+        (("other",), None, None, ""),
+        ((), 2, None, ""),
+        (("same",), None, None, ""),
+        ((), 4, None, ""),
+        ((), None, None, "null as the timer"),
+        ((), None, None, ""),
+        ((), None, "no rounds", ""),
+        (("same",), None, None, ""),
+        ((2**63 - 1,), None, None, ""),
+        ((False,), None, None, ""),
+    ]
+    assert len([e for e in replies if e.raised]) == len((*refused, *asked[3:], "x"))
 
 
 def test_guide_module(builds: Builds) -> None:

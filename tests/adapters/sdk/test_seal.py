@@ -19,7 +19,7 @@ from ucm_cts.adapters.contract import messages, trace
 from ucm_cts.adapters.contract.messages import Refused, Traced
 from ucm_cts.adapters.contract.programming_model import Implementation
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
-from ucm_cts.adapters.sdk.python import data, engine, gates, probe, recorder, seal
+from ucm_cts.adapters.sdk.python import data, engine, gates, probe, probe_parts, recorder, seal
 
 SDK = "ucm_cts.adapters.sdk.python"
 
@@ -82,9 +82,9 @@ def _other_default() -> Callable[[], None]:
 
 
 def _another_base() -> Callable[[], None]:
-    before = probe.ProbePort.__bases__
-    type.__setattr__(probe.ProbePort, "__bases__", (type("Before", before, {}),))
-    return lambda: type.__setattr__(probe.ProbePort, "__bases__", before)
+    before = probe_parts.ProbePort.__bases__
+    type.__setattr__(probe_parts.ProbePort, "__bases__", (type("Before", before, {}),))
+    return lambda: type.__setattr__(probe_parts.ProbePort, "__bases__", before)
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def _another_base() -> Callable[[], None]:
         (put(seal.Seal, "_broken_object", lambda self, objects: None), f"{SDK}.seal.Seal._broken_object"),
         (put_item(probe._KINDS, (False, False), probe.FragmentProbe), f"{SDK}.probe._KINDS.(False"),
         (put(probe.Probe, "__del__", lambda self: None), f"{SDK}.probe.Probe.__del__"),
-        (_another_base, f"{SDK}.probe.ProbePort.__bases__"),
+        (_another_base, f"{SDK}.probe_parts.ProbePort.__bases__"),
         (_other_code, f"{SDK}.recorder.Recorder.stop"),
         (_other_default, f"{SDK}.gates.Gates.reach"),
         (put(messages, "encode", msgspec.json.encode), "ucm_cts.adapters.contract.messages.encode"),

@@ -31,6 +31,11 @@ def test_drawn_scenarios_do_not_fail_the_reference_framework(part: str) -> None:
             verdicts = monitor.judge(answer.disguised, answer.trace)
             assert verdicts.findings == []
             kept |= verdicts.exercises.keys()
-    shown = {"request-response": ("R-10.4.1", 15), "shared-data": ("R-10.4.2", 15), "index-timers": ("R-10.3", 15)}
+    shown = {
+        "request-response": ("R-10.4.1", 15),
+        "shared-data": ("R-10.4.2", 15),
+        "index-timers": ("R-10.3.2", 15),
+        "object-timers": ("R-10.3.1", 12),
+    }
     clause, least = shown.get(part, ("R-10.5", 4))
     assert sum(one.startswith(clause) for one in kept) >= least

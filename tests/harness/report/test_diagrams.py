@@ -179,6 +179,8 @@ def test_no_trace_however_absurd_breaks_a_diagram() -> None:
         **{name: [None, (), (1, [HOSTILE], True)] for name in ("arguments", "results")},
         "records": [None, (), (LogRecord("info", HOSTILE),)],
         "answers": [{}, {HOSTILE: 3}],
+        "handler": [None, HOSTILE],
+        "timer": [None, 1, -1],
         **{name: [0, 5, -1] for name in _COUNTS},
     }
     for seed in range(200):

@@ -1,6 +1,7 @@
 // Cells: a framework with names for ids, sockets for references and connectors that are made of fragments, bound with binding.hpp
 // and fragments.hpp. It checks hardly anything.
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -65,6 +66,39 @@ cells::Plug plug(const ucm_cts::Reference& element) {
         [element](int value) { return element->exchange(value); },
         [element](const std::string& method, const Data& arguments) { return element->call(method, arguments); }});
 }
+
+// A timer that tells which handler it has, and is not to be cancelled.
+struct Bell : ucm_cts::ObjectTimer {
+    explicit Bell(bool is_same) : is_same_handler(is_same) {}
+    std::int64_t rounds() override { return INT64_MAX; }
+    std::string id() override { return is_same_handler ? "same" : "other"; }
+    void cancel() override { throw cells::Refused(); }
+    bool is_cancelled() override { return false; }
+
+    const bool is_same_handler;
+};
+
+// A scheduler that triggers at once: with a timer that it returns, or without any.
+struct Scheduler : ucm_cts::TimerScheduler {
+    std::shared_ptr<ucm_cts::ObjectTimer> scheduler_trigger(const std::shared_ptr<ucm_cts::TimerHandler>& handler,
+                                                            const ucm_cts::TimeValue& delay) override {
+        const bool is_same = last_ == handler;
+        last_ = handler;
+        const auto bell = delay.seconds > 0 ? std::make_shared<Bell>(is_same) : nullptr;
+        handler->on_trigger(bell, delay, delay.microseconds);
+        return bell;
+    }
+
+    std::shared_ptr<ucm_cts::ObjectTimer> schedule_repeated_trigger(const std::shared_ptr<ucm_cts::TimerHandler>&,
+                                                                    const ucm_cts::TimeValue&,
+                                                                    const ucm_cts::TimeValue&,
+                                                                    std::int64_t max_rounds) override {
+        return max_rounds > 0 ? nullptr : throw ucm_cts::DeclaredException("no rounds");
+    }
+
+  private:
+    std::shared_ptr<ucm_cts::TimerHandler> last_;
+};
 
 class CellsAdapter final : public ucm_cts::FragmentConnectors<ucm_cts::BareAdapter> {
   public:
@@ -176,8 +210,12 @@ class CellsAdapter final : public ucm_cts::FragmentConnectors<ucm_cts::BareAdapt
                 pairs.emplace_back(each.first, std::make_shared<Reference>(each.second));
             }
             for (const auto& each : policies.elements) {
-                pairs.emplace_back(each.first, std::make_shared<ucm_cts::Methods>(ucm_cts::Methods::Functions{
-                    {"get_local_time", [](const Data&) { return Data(1, Data{1, 2}); }}}));
+                if (each.second == ucm_cts::OBJECT_TIMERS) {
+                    pairs.emplace_back(each.first, std::make_shared<Scheduler>());
+                } else {
+                    pairs.emplace_back(each.first, std::make_shared<ucm_cts::Methods>(ucm_cts::Methods::Functions{
+                        {"get_local_time", [](const Data&) { return Data(1, Data{1, 2}); }}}));
+                }
             }
             body->on_startup(ucm_cts::port_connections(pairs));
         };

@@ -1,6 +1,7 @@
 // What the suite cannot see of lwucm's links, services and timers: how they refuse, what waits and what ends it, and how code
 // that was generated for an interface is bound to them. Says nothing and exits with 0 if all is well.
 #include "lwucm_application.hpp"
+#include "lwucm_object_timers.hpp"
 #include "lwucm_timers.hpp"
 
 #include <atomic>
@@ -341,5 +342,6 @@ int main() {
     services_are_there_by_policy();
     calls_may_come_back_in_a_circle();
     timers_do_what_they_are_set_to();
+    object_timers_do_what_they_are_made_for();
     return failures == 0 ? 0 : 1;
 }

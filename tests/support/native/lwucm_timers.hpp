@@ -28,10 +28,10 @@ class TimerCallback final : public itt_callback_intf {
 /// A port element that has no interface which can be called by name.
 class Opaque final : public PortElementObject {};
 
-/// A runtime with one component that has timers, and does at its callback what the test wants.
+/// A runtime with one component that has timers of both kinds, and does at its callback what the test wants.
 struct Alarms {
     explicit Alarms(const std::string& execution = "", const std::string& options = "") {
-        std::vector<Policy> applied = {{"itt_timer", "", {}, "timers", {}}};
+        std::vector<Policy> applied = {{"itt_timer", "", {}, "timers", {}}, {"ott_timer", "", {}, "scheduler", {}}};
         if (!execution.empty()) {
             applied.push_back({execution, execution == "protected_active_component" ? "account" : "", {}, "", {}});
         }

@@ -62,8 +62,8 @@ bool asked_for(const std::string& bodies) {
 /// port elements.
 bool is_modelled(const Shaped& one) {
     static const std::vector<std::string> with_port_elements = {ucm_cts::SELF_EXECUTING, ucm_cts::PERIODIC_SELF_EXECUTING,
-                                                                ucm_cts::BACKGROUND, ucm_cts::INDEX_TIMERS, "clock",
-                                                                "component_trace"};
+                                                                ucm_cts::BACKGROUND, ucm_cts::INDEX_TIMERS,
+                                                                ucm_cts::OBJECT_TIMERS, "clock", "component_trace"};
     return one.interfaces.empty() &&
            std::none_of(one.policies.begin(), one.policies.end(), [](const ucm_cts::Policy& policy) {
                return std::count(with_port_elements.begin(), with_port_elements.end(), policy.definition) != 0;

@@ -138,7 +138,7 @@ class Body {
 /// port elements that have one; the others have `exchange`. `defaults` are those of the attributes that have one (9.2.7.4).
 ///
 /// The port element that a component requires by a policy is handed over in `on_startup` like any other, under the name
-/// `policy.element`, and takes `call`.
+/// `policy.element`, and takes `call`; that of `ott_timer` (10.3.1) is a TimerScheduler (timers.hpp).
 struct Implementation {
     std::string name;
     std::vector<std::string> provided;

@@ -2,19 +2,19 @@
 #ifndef UCM_CTS_PROBE_HPP
 #define UCM_CTS_PROBE_HPP
 
-#include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "ucm_cts/adapter.hpp"
+#include "ucm_cts/calls.hpp"
 #include "ucm_cts/data_types.hpp"
+#include "ucm_cts/held.hpp"
 #include "ucm_cts/memory.hpp"
 #include "ucm_cts/scenario.hpp"
 #include "ucm_cts/stage.hpp"
@@ -29,7 +29,7 @@ class ProbeFailure : public std::runtime_error {
 };
 
 /// What all faces of one body, itself and its port elements, have in common.
-class Probe {
+class Probe : public std::enable_shared_from_this<Probe> {
   public:
     Probe(std::shared_ptr<Stage> stage, std::shared_ptr<const Scenario> scenario, const Component& component,
           int instance)
@@ -39,6 +39,10 @@ class Probe {
             if (action.kind == Action::Kind::count) {
                 messages_ = stage_->messages.of(name(), instance_);
             }
+        }
+        for (const std::string& handler : declaration().handlers) {
+            handlers_.emplace(std::piecewise_construct, std::forward_as_tuple(handler),
+                              std::forward_as_tuple(*this, handler));
         }
         record(events::Create(name(), instance_));
     }
@@ -103,27 +107,56 @@ class Probe {
         return answer(method, given);
     }
 
-    void keep(const std::vector<PortConnection>& connections) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        connections_ = connections;
+    /// The method of its `handler`.
+    void on_trigger(const std::string& handler, const std::shared_ptr<ObjectTimer>& timer, const TimeValue& delta_time,
+                    std::int64_t round) {
+        if (over()) {
+            return;
+        }
+        Entry now(ON_TRIGGER, Data());
+        events::Enter entered = entry(Hook::method).port(handler).method(ON_TRIGGER);
+        if (timer) {
+            now.arguments = {Datum::array({delta_time.seconds, delta_time.microseconds}), round};
+            entered.arguments(now.arguments);
+            now.timer = memory_.take({ON_TRIGGER, timer},
+                                     [this, &entered](std::int64_t number) { record(entered.timer(number)); });
+        } else {
+            record(entered.arguments(Data()).wrong("null as the timer"));
+        }
+        perform(Hook::method, now);
+        record(exit(Hook::method).results(Data()));
     }
 
-    void keep(const std::shared_ptr<ContainerInterface>& container) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        container_ = container;
-    }
+    void keep(const std::vector<PortConnection>& connections) { held_.keep(connections); }
+    void keep(const std::shared_ptr<ContainerInterface>& container) { held_.keep(container); }
 
     /// Lets go of everything the framework has given, so that no cycle of references survives a scenario.
     void forget() {
-        std::vector<PortConnection> connections;
-        std::shared_ptr<ContainerInterface> container;
-        std::lock_guard<std::mutex> lock(mutex_);
-        connections.swap(connections_);
-        container.swap(container_);
-        sent_.clear();
+        memory_.forget();
+        held_.forget();
     }
 
   private:
+    // One of its handlers. The probe owns it, and who holds it holds the probe.
+    class Handler final : public TimerHandler {
+      public:
+        Handler(Probe& probe, const std::string& name) : probe_(probe), name_(name) {}
+        void on_trigger(const std::shared_ptr<ObjectTimer>& timer, const TimeValue& delta_time,
+                        std::int64_t round) override {
+            probe_.on_trigger(name_, timer, delta_time, round);
+        }
+
+      private:
+        Probe& probe_;
+        const std::string name_;
+    };
+
+    // Null if there is none.
+    std::shared_ptr<TimerHandler> handler(const std::string& name) {
+        const auto found = handlers_.find(name);
+        return found != handlers_.end() ? std::shared_ptr<TimerHandler>(shared_from_this(), &found->second) : nullptr;
+    }
+
     const std::vector<Action>& plan_of(Hook hook) const {
         static const std::vector<Action> nothing;
         const auto found = declaration().plan.find(hook);
@@ -206,7 +239,7 @@ class Probe {
                     call_method(action, now);
                     break;
                 case Action::Kind::burst:
-                    for (const Reference& reference : references(action.port)) {
+                    for (const Reference& reference : held_.references(action.port)) {
                         push(action, *reference);
                     }
                     break;
@@ -218,7 +251,7 @@ class Probe {
     }
 
     void call(const std::string& port, std::int32_t value) {
-        for (const Reference& reference : references(port)) {
+        for (const Reference& reference : held_.references(port)) {
             record(request(port).value(value));
             try {
                 record(reply(port).value(reference->exchange(value)));
@@ -230,41 +263,63 @@ class Probe {
 
     void call_method(const Action& action, const Entry& now) {
         Data given;
-        if (memory_.arguments(action, now, given) && (!action.has_from_clock || date(action.from_clock, given))) {
-            for (const Reference& reference : references(action.port)) {
-                call_method(action.port, action.method, given, *reference);
+        if (!memory_.arguments(action, now, given) || (action.has_from_clock && !date(action.from_clock, given))) {
+            return;
+        }
+        if (action.has_on) {
+            std::shared_ptr<ObjectTimer> timer;
+            if (const std::int64_t number = memory_.find(action.on, now, timer)) {
+                call_method(action, given, call_timer(timer, action.method), number);
             }
+            return;
+        }
+        for (const Reference& reference : held_.references(action.port)) {
+            call_method(action, given, action.has_handler ? schedule(reference, action.method, handler(action.handler))
+                                                          : call_port(reference, action.method));
         }
     }
 
     // Has the time-out among `arguments` count from what the body's clock shows; false if there is none, or it gives no time.
     bool date(const FromClock& of, Data& arguments) {
-        const std::vector<Reference> clocks = references(of.port);
+        const std::vector<Reference> clocks = held_.references(of.port);
+        Action reading;
+        reading.kind = Action::Kind::call_method;
+        reading.port = of.port;
+        reading.method = of.method;
         return !clocks.empty() &&
-               date_from(call_method(of.port, of.method, Data(), *clocks[0]), of.argument, arguments);
+               date_from(call_method(reading, Data(), call_port(clocks[0], of.method)), of.argument, arguments);
     }
 
-    // Returns the results as recorded, nothing if it raised.
-    Data call_method(const std::string& port, const std::string& method, const Data& given, PortElement& callee) {
-        const std::shared_ptr<Data> arguments = buffer(given);
-        record(request(port).method(method).arguments(given));
-        events::Reply replied = reply(port);
-        Data results;
+    // Returns the results as recorded, nothing if it raised. `timer` is the number of the object timer that is called.
+    Data call_method(const Action& action, const Data& given, const Calling& call, std::int64_t timer = 0) {
+        const std::shared_ptr<Data> arguments = held_.buffer(given);
+        events::Request asked = request(action.port).method(action.method).arguments(given);
+        if (action.has_handler) {
+            asked.handler(action.handler);
+        }
+        record(timer != 0 ? asked.timer(timer) : asked);
+        events::Reply replied = reply(action.port);
+        CallResult back;
         try {
-            results = callee.call(method, *arguments);
-            put(replied, results);
+            back = call(*arguments);
+            put(replied, back.results);
+            if (!back.wrong.empty()) {
+                replied.wrong(back.wrong);
+            }
         } catch (const DeclaredException& error) {
             put(replied, error.fields);
             replied.exception(error.name);
         } catch (...) {
             replied.raised(true);
         }
-        record(replied);
-        overwrite(*arguments);
-        if (!are_data(results)) {
-            results.clear();
+        if (back.timer) {
+            memory_.take({action.method, back.timer},
+                         [this, &replied](std::int64_t number) { record(replied.timer(number)); });
+        } else {
+            record(replied);
         }
-        return results;
+        overwrite(*arguments);
+        return are_data(back.results) ? back.results : Data();
     }
 
     // `results` if they are values; if not, none, and what they are.
@@ -278,7 +333,7 @@ class Probe {
 
     // One buffer for all messages: an emitter overwrites a message with the next one.
     void push(const Action& action, PortElement& callee) {
-        const std::shared_ptr<Data> buffered = buffer(Data(1));
+        const std::shared_ptr<Data> buffered = held_.buffer(Data(1));
         Data& message = *buffered;
         std::map<std::string, std::int64_t> answers;
         for (std::int64_t n = 0; n < action.count; ++n) {
@@ -297,37 +352,12 @@ class Probe {
         record(events::Pushed(name(), instance_, action.port, action.first, action.count, answers));
     }
 
-    // What a caller sends is its own, which it overwrites when the call is over. It stays where it is, so that a framework
-    // that reads it later reads wrong values and does not crash.
-    std::shared_ptr<Data> buffer(const Data& content) {
-        const std::shared_ptr<Data> own = std::make_shared<Data>(content);
-        std::lock_guard<std::mutex> lock(mutex_);
-        sent_.push_back(own);
-        return own;
-    }
-
-    std::vector<Reference> references(const std::string& port) {
-        std::vector<Reference> found;
-        std::lock_guard<std::mutex> lock(mutex_);
-        for (const PortConnection& connection : connections_) {
-            if (connection.from_port == port) {
-                std::copy_if(connection.to_port.begin(), connection.to_port.end(), std::back_inserter(found),
-                             [](const Reference& reference) { return reference != nullptr; });
-            }
-        }
-        return found;
-    }
-
     void hold(const std::string& gate) {
         stage_->gates.hold(gate, [this, &gate] { record(events::Held(name(), instance_, gate)); });
     }
 
     void query_siblings() {
-        std::shared_ptr<ContainerInterface> container;
-        {
-            std::lock_guard<std::mutex> lock(mutex_);
-            container = container_;
-        }
+        const std::shared_ptr<ContainerInterface> container = held_.container();
         try {
             if (!container) {
                 throw std::logic_error("no container interface was given");
@@ -347,10 +377,8 @@ class Probe {
     Occupancy occupancy_;
     Memory memory_;
     std::shared_ptr<MessageCount> messages_;  // if the plan says so
-    std::mutex mutex_;
-    std::vector<PortConnection> connections_;
-    std::shared_ptr<ContainerInterface> container_;
-    std::vector<std::shared_ptr<Data>> sent_;
+    Held held_;
+    std::map<std::string, Handler> handlers_;
 };
 
 }  // namespace ucm_cts

@@ -32,6 +32,9 @@ inline bool is_self_executing(const std::string& policy) {
 const char* const INDEX_TIMERS = "itt_timer";
 const char* const TIMER_CALLBACK = "timer_callback";
 
+/// The policy that gives a component object timers (10.3.1).
+const char* const OBJECT_TIMERS = "ott_timer";
+
 /// The method of messages (10.1.6).
 const char* const PUSH = "push";
 

@@ -89,6 +89,8 @@ Properties properties(const std::string& name, const std::string& implementation
 ///   - `static Data call(PortElementObject&, const std::string& method, const Data& arguments)`: calls a method of
 ///     any object that the framework handed over: what `typed` made, what stands before it, or the framework's own port element
 ///     for a policy. A declared exception leaves it as DeclaredException, any other as it is.
+/// `static std::shared_ptr<TimerScheduler> scheduler(const std::shared_ptr<PortElementObject>&)`, if it is there, makes the SDK's
+/// scheduler (timers.hpp) of the framework's, by which a component gets object timers (10.3.1); null for any other port element.
 /// `static std::string port_element_name()`, if it is there, says how port elements are named at the API: `{port}_{element}` or
 /// another text with both in it.
 ///

@@ -120,6 +120,16 @@ Data call(Element&, const std::string& method, const Data&, long) {
     throw std::logic_error("the adapter cannot call by name: " + method);
 }
 
+/// Traits::scheduler, if the Traits have it: null for a reference that is no scheduler.
+template <class Traits, class Pointer>
+auto scheduler(const Pointer& reference, int) -> decltype(std::shared_ptr<TimerScheduler>(Traits::scheduler(reference))) {
+    return Traits::scheduler(reference);
+}
+template <class Traits, class Pointer>
+std::shared_ptr<TimerScheduler> scheduler(const Pointer&, long) {
+    return nullptr;
+}
+
 /// The framework's component_execution_intf (12.11.1) if the Traits name it as ComponentExecution, else the SDK's.
 template <class Traits>
 typename Traits::ComponentExecution* execution_of(int);
@@ -177,6 +187,12 @@ class ShapedReference final : public PortElement {
 
     static Reference wrap(const Pointer& pointer) {
         return pointer ? std::make_shared<ShapedReference>(pointer) : nullptr;
+    }
+
+    /// The same for one that a component is given by on_startup, which may be a scheduler of object timers.
+    static Reference wrap_dependency(const Pointer& pointer) {
+        const std::shared_ptr<TimerScheduler> scheduler = detail::scheduler<Traits>(pointer, 0);
+        return scheduler ? Reference(scheduler) : wrap(pointer);
     }
 
     static Pointer unwrap(const Reference& reference) {
@@ -261,7 +277,7 @@ class ShapedBody : public Base, public NamedFeatures {
             detail::for_each_reference(
                 detail::references_of(dependency, detail::Rank<3>()),
                 [&connection](const typename ShapedReference<Traits>::Pointer& reference) {
-                    connection.to_port.push_back(ShapedReference<Traits>::wrap(reference));
+                    connection.to_port.push_back(ShapedReference<Traits>::wrap_dependency(reference));
                 },
                 0);
             connections.push_back(std::move(connection));

@@ -1,17 +1,64 @@
-// Timers: the callback of index timers (10.3.2), and time-outs that count from what a clock shows.
+// Timers: object timers (10.3.1), the callback of index timers (10.3.2), and time-outs that count from what a clock shows.
 #ifndef UCM_CTS_TIMERS_HPP
 #define UCM_CTS_TIMERS_HPP
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "ucm_cts/data_types.hpp"
+#include "ucm_cts/adapter.hpp"
 
 namespace ucm_cts {
+
+/// A time of 10.3.1, as ucm_timeval_t. All numbers of object timers are wider than in the text: that they fit is judged, so wider
+/// ones must come through.
+struct TimeValue {
+    std::int64_t seconds;
+    std::int64_t microseconds;
+};
+
+/// A timer, which a scheduler gives out. `rounds` and `id` are the getters of its attributes. Bodies keep timers until the
+/// scenario is over, and may call them when the framework has dropped them.
+class ObjectTimer {
+  public:
+    virtual ~ObjectTimer() = default;
+    virtual std::int64_t rounds() = 0;
+    virtual std::string id() = 0;
+    virtual void cancel() = 0;
+    virtual bool is_cancelled() = 0;
+};
+
+/// What a body passes to a scheduler, and the timer calls. The same object whenever the body passes the same handler.
+class TimerHandler {
+  public:
+    virtual ~TimerHandler() = default;
+
+    /// `timer` triggers. May throw anything.
+    virtual void on_trigger(const std::shared_ptr<ObjectTimer>& timer, const TimeValue& delta_time,
+                            std::int64_t round) = 0;
+};
+
+/// The port element `timer_scheduler` that a component requires by policy `ott_timer`. An adapter hands it over in `on_startup`,
+/// like any other. The methods throw what the framework throws where it refuses a call.
+class TimerScheduler : public PortElement {
+  public:
+    /// Makes a timer that triggers `handler` once, after `delay`.
+    virtual std::shared_ptr<ObjectTimer> scheduler_trigger(const std::shared_ptr<TimerHandler>& handler,
+                                                           const TimeValue& delay) = 0;
+
+    /// Makes a timer that triggers `handler` `max_rounds` times, and returns it if `repeated-result=timer` is declared.
+    virtual std::shared_ptr<ObjectTimer> schedule_repeated_trigger(const std::shared_ptr<TimerHandler>& handler,
+                                                                   const TimeValue& start_delay,
+                                                                   const TimeValue& interval,
+                                                                   std::int64_t max_rounds) = 0;
+
+    std::int32_t exchange(std::int32_t) final { throw std::logic_error("a scheduler has no exchange"); }
+};
+
 namespace detail {
 
 inline SharedType timeout_type() {

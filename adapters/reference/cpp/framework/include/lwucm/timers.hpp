@@ -1,9 +1,12 @@
-// The timers that containers provide to components by policy itt_timer (10.3.2).
+// The timers that containers provide to components by policies itt_timer (10.3.2) and ott_timer (10.3.1).
 #ifndef LWUCM_TIMERS_HPP
 #define LWUCM_TIMERS_HPP
 
 #include <cstdint>
+#include <memory>
+#include <string>
 
+#include "lwucm/container_services.hpp"
 #include "lwucm/interfaces.hpp"
 
 namespace lwucm {
@@ -42,6 +45,49 @@ class itt_callback_intf : public DynamicPortElement {
 
 /// Calls `on_timeout` of a port element that can be called by name.
 void call_on_timeout(DynamicPortElement& callback, const timeout_t& time, timer_number_t timer_number);
+
+typedef std::uint32_t ott_round_t;
+
+/// A timer that an `ott_scheduler` gives out. May be called at any time from any thread, also when nothing but its holder is left.
+class ott_timer {
+  public:
+    virtual ~ott_timer() = default;
+
+    /// How many rounds have been done; one that is being done counts.
+    virtual ott_round_t rounds() = 0;
+
+    /// Belongs to this timer alone in the runtime, for ever.
+    virtual std::string id() = 0;
+
+    virtual void cancel() = 0;
+
+    /// Does it wait no longer?
+    virtual bool is_cancelled() = 0;
+};
+
+/// What a timer calls. The scheduler holds it as long as its timer waits, or executes it.
+class ott_handler {
+  public:
+    virtual ~ott_handler() = default;
+
+    /// `delta_time` has passed since the timer was asked for; the first `round` is 1.
+    virtual void on_trigger(const std::shared_ptr<ott_timer>& timer, const ucm_timeval_t& delta_time,
+                            ott_round_t round) = 0;
+};
+
+/// What a component requires by policy `ott_timer`. May be called at any time from any thread. UCM_ERROR if the component is not
+/// operational; BAD_PARAMETER if there is no handler, a time has no 0 to 999999 microseconds, or an interval is 0.
+class ott_scheduler : public PortElementObject {
+  public:
+    virtual std::shared_ptr<ott_timer> scheduler_trigger(const std::shared_ptr<ott_handler>& trigger_handler,
+                                                         const ucm_timeval_t& trigger_delay) = 0;
+
+    /// The timer never triggers if `max_rounds` is 0.
+    virtual std::shared_ptr<ott_timer> schedule_repeated_trigger(const std::shared_ptr<ott_handler>& trigger_handler,
+                                                                 const ucm_timeval_t& start_delay,
+                                                                 const ucm_timeval_t& interval,
+                                                                 ott_round_t max_rounds) = 0;
+};
 
 }  // namespace lwucm
 

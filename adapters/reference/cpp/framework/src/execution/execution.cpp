@@ -62,10 +62,24 @@ void Execution::make_guards(ComponentObject& body) {
 }
 
 void Execution::make_timers(ComponentObject& body) {
-    const auto are_timers = [](const RequiredService& one) { return one.kind == RequiredService::Kind::timers; };
-    if (std::none_of(demands_.services.begin(), demands_.services.end(), are_timers)) {
-        return;
+    const auto demands = [this](RequiredService::Kind kind) {
+        return std::any_of(demands_.services.begin(), demands_.services.end(),
+                           [kind](const RequiredService& one) { return one.kind == kind; });
+    };
+    const bool by_index = demands(RequiredService::Kind::index_timers);
+    const bool as_objects = demands(RequiredService::Kind::object_timers);
+    if (by_index || as_objects) {
+        timers_ = std::make_shared<Timers>(guard_);
     }
+    if (by_index) {
+        index_timers_ = std::make_shared<IndexTimers>(timers_, timer_callback(body), platform_.clock);
+    }
+    if (as_objects) {
+        object_timers_ = std::make_shared<ObjectTimers>(timers_, id_);
+    }
+}
+
+std::shared_ptr<DynamicPortElement> Execution::timer_callback(ComponentObject& body) const {
     std::shared_ptr<PortElementObject> callback;
     if (implementation_->policies.get_policy_port) {
         callback = implementation_->policies.get_policy_port(body, INDEX_TIMERS, TIMER_CALLBACK);
@@ -74,7 +88,7 @@ void Execution::make_timers(ComponentObject& body) {
     if (!dynamic) {
         throw UCM_ERROR("the component gives no " + TIMER_CALLBACK);
     }
-    timers_ = std::make_shared<Timers>(dynamic, guard_, platform_.clock);
+    return dynamic;
 }
 
 std::shared_ptr<PortElementObject> Execution::provided(const std::string& port,
@@ -105,15 +119,23 @@ std::shared_ptr<PortElementObject> Execution::required(const std::string& port,
 PortConnections Execution::services() const {
     PortConnections connections;
     for (const RequiredService& service : demands_.services) {
-        std::shared_ptr<PortElementObject> element = platform_.clock;
-        if (service.kind == RequiredService::Kind::trace) {
-            element = std::make_shared<TraceService>(platform_.trace);
-        } else if (service.kind == RequiredService::Kind::timers) {
-            element = timers_;
-        }
-        connections.push_back(PortConnection{service.name, {std::move(element)}});
+        connections.push_back(PortConnection{service.name, {element_of(service.kind)}});
     }
     return connections;
+}
+
+std::shared_ptr<PortElementObject> Execution::element_of(RequiredService::Kind service) const {
+    switch (service) {
+        case RequiredService::Kind::clock:
+            return platform_.clock;
+        case RequiredService::Kind::trace:
+            return std::make_shared<TraceService>(platform_.trace);
+        case RequiredService::Kind::index_timers:
+            return index_timers_;
+        case RequiredService::Kind::object_timers:
+            return object_timers_;
+    }
+    return nullptr;
 }
 
 std::shared_ptr<const PortTraces> Execution::traces_of(const std::string& port) const {
@@ -156,8 +178,8 @@ void Execution::end() {
 
 void Execution::close() {
     end();
-    if (timers_) {
-        timers_->close();
+    if (index_timers_) {
+        index_timers_->close();
     }
     if (own_executor_) {
         own_executor_->end();

@@ -7,7 +7,9 @@
 #include <mutex>
 #include <string>
 
+#include "execution/index_timers.hpp"
 #include "execution/interception.hpp"
+#include "execution/object_timers.hpp"
 #include "execution/self_execution.hpp"
 #include "execution/timers.hpp"
 #include "lwucm/container.hpp"
@@ -64,6 +66,8 @@ class Execution {
 
     void make_guards(ComponentObject& body);
     void make_timers(ComponentObject& body);
+    std::shared_ptr<DynamicPortElement> timer_callback(ComponentObject& body) const;
+    std::shared_ptr<PortElementObject> element_of(RequiredService::Kind service) const;
     std::shared_ptr<const PortTraces> traces_of(const std::string& port) const;
 
     const componentId id_;
@@ -75,7 +79,9 @@ class Execution {
     std::shared_ptr<Guard> active_guard_;  // of the port elements that an active policy manages
     std::shared_ptr<PacedGuard> paced_guard_;  // the same, with a policy of 10.5
     std::unique_ptr<SelfExecution> self_execution_;
-    std::shared_ptr<Timers> timers_;
+    std::shared_ptr<Timers> timers_;  // of both services
+    std::shared_ptr<IndexTimers> index_timers_;
+    std::shared_ptr<ObjectTimers> object_timers_;
     std::mutex mutex_;
     std::map<std::string, Way> ways_in_;
 };

@@ -63,7 +63,8 @@ const std::map<std::string, ServicePolicy>& service_policies() {
     static const std::map<std::string, ServicePolicy> all = {
         {"clock", {RequiredService::Kind::clock, "clock_clock_api", false}},
         {"component_trace", {RequiredService::Kind::trace, "component_trace_trace_api", true}},
-        {"itt_timer", {RequiredService::Kind::timers, "itt_timer_timer_service", false}}};
+        {"itt_timer", {RequiredService::Kind::index_timers, "itt_timer_timer_service", false}},
+        {"ott_timer", {RequiredService::Kind::object_timers, "ott_timer_timer_scheduler", false}}};
     return all;
 }
 

@@ -23,7 +23,7 @@ struct PortTrace {
 
 /// A port element that a component requires by a policy, and the name under which it gets it.
 struct RequiredService {
-    enum class Kind { clock, trace, timers };
+    enum class Kind { clock, trace, index_timers, object_timers };
 
     Kind kind;
     std::string name;

@@ -1,38 +1,61 @@
-// Timers: those of one component (10.3.2), which it sets and cancels by number.
+// Timers: those of one component (10.3), by which its container calls it back.
 #ifndef LWUCM_SRC_TIMERS_HPP
 #define LWUCM_SRC_TIMERS_HPP
 
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "execution/monitor.hpp"
-#include "lwucm/container_services.hpp"
-#include "lwucm/timers.hpp"
 
 namespace lwucm {
 
-/// What the component sets its timers with. They live from one start of the container to the next stop. A thread, which the first
-/// timer brings, calls back, one timer after the other.
-class Timers final : public itt_service_intf {
+/// A timer that waits: when it is due, again after each `rate`, or once if that is 0.
+class Timer {
   public:
-    /// `guard` is null if nothing stands between the component and those who call it. Dates are those of `clock`.
-    Timers(std::shared_ptr<DynamicPortElement> callback, std::shared_ptr<Guard> guard,
-           std::shared_ptr<clock_service_intf> clock);
-    ~Timers() override;
+    typedef std::chrono::steady_clock Clock;
 
-    // A number that is in use stays as it is; outside of `open` and `end` nothing is set. The flag of a rate has no meaning.
-    void start_periodic_scheduler(timer_number_t timer_number, const timeout_t& delay_time,
-                                  const timeout_t& rate) override;
-    void start_sporadic_scheduler(timer_number_t timer_number, const timeout_t& time) override;
-    void cancel_timer(timer_number_t timer_number) override;
+    Timer(Clock::time_point first, std::chrono::microseconds its_rate) : due(first), rate(its_rate) {}
+    virtual ~Timer() = default;
 
-    /// Does no timer of that number wait?
-    bool is_canceled(timer_number_t timer_number) override;
+    /// It expires `now`; `due` is still the instant that has come. Returns what calls the component back. The timers are locked
+    /// meanwhile.
+    virtual std::function<void()> expire(Clock::time_point now) = 0;
+
+    /// Has it expired for the last time? Asked after each expiry.
+    virtual bool is_over() const { return rate.count() == 0; }
+
+    Clock::time_point due;
+    const std::chrono::microseconds rate;
+};
+
+/// The timers of one component. They live from one start of the container to the next stop. A thread, which the first timer brings,
+/// calls back, one timer after the other. May be called at any time from any thread.
+class Timers {
+  public:
+    /// The services that set timers. Each has numbers of its own for them.
+    enum class Service { index, object };
+    typedef std::pair<Service, std::uint64_t> Name;
+
+    /// `guard` is null if nothing stands between the component and those who call it.
+    explicit Timers(std::shared_ptr<Guard> guard);
+    ~Timers();
+
+    /// Has a timer wait. If one of that name waits already, that one stays as it is. Returns false, and nothing is set, outside
+    /// of `open` and `end`.
+    bool set(Name name, std::unique_ptr<Timer> timer);
+
+    /// Does `set` set timers now?
+    bool are_set() const;
+
+    void cancel(Name name);
+    bool waits(Name name) const;
 
     /// The component is about to start: it may set timers.
     void open();
@@ -43,37 +66,23 @@ class Timers final : public itt_service_intf {
     /// Drops all timers and waits for the callback that is under way.
     void end();
 
-    /// The same for good: lets go of the component.
-    void close();
-
   private:
-    typedef std::chrono::steady_clock Clock;
-    typedef std::chrono::duration<std::uint32_t> Seconds;
+    typedef Timer::Clock Clock;
+    typedef std::map<Name, std::unique_ptr<Timer>> Waiting;
 
     enum class Phase { closed, open, operational };
 
-    /// `date` is what the clock shows when it is due. `rate` is 0 if it is due once.
-    struct Timer {
-        Clock::time_point due;
-        std::uint32_t date;
-        Seconds rate;
-    };
-
-    void set(timer_number_t number, const timeout_t& time, Seconds rate);
-    Timer timer_for(const timeout_t& time, Seconds rate) const;
-    std::map<timer_number_t, Timer>::iterator first();
+    Waiting::iterator first();
     void begin_thread();
     void work();
-    void call_back(timer_number_t number);
-    bool take(timer_number_t number, std::uint32_t& date);
+    void call_back(Name name);
+    std::function<void()> take(Name name);
 
-    std::shared_ptr<DynamicPortElement> callback_;
     const std::shared_ptr<Guard> guard_;
-    const std::shared_ptr<clock_service_intf> clock_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable changed_;
     Phase phase_ = Phase::closed;
-    std::map<timer_number_t, Timer> waiting_;
+    Waiting waiting_;
     std::thread thread_;
 };
 

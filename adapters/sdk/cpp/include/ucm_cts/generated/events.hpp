@@ -115,6 +115,8 @@ class Create : public Event {
 /// `method`: name of the method.
 /// `arguments`: IN and INOUT values of the method.
 /// `wrong`: what the framework handed over that is not of the type of the interface, for people; its field is empty.
+/// `timer`: the object timer that `on_trigger` was given: its number among those that came to the body, from 1. One
+/// that comes     again has another number, because the body cannot tell whether it is the same.
 class Enter : public Event {
   public:
     Enter(const std::string& component, std::int64_t instance, Hook hook)
@@ -153,6 +155,10 @@ class Enter : public Event {
     }
     Enter& wrong(const std::string& its_wrong) {
         field("wrong", its_wrong);
+        return *this;
+    }
+    Enter& timer(std::int64_t its_timer) {
+        field("timer", its_timer);
         return *this;
     }
 };
@@ -196,6 +202,8 @@ class Exit : public Event {
 /// `value`: argument of `exchange`.
 /// `method`: name of the method; none for `exchange`.
 /// `arguments`: IN and INOUT values of the method.
+/// `handler`: the handler that is passed before them.
+/// `timer`: the object timer that is called, by its number.
 class Request : public Event {
   public:
     Request(const std::string& component, std::int64_t instance, const std::string& port)
@@ -216,6 +224,14 @@ class Request : public Event {
         field("arguments", its_arguments);
         return *this;
     }
+    Request& handler(const std::string& its_handler) {
+        field("handler", its_handler);
+        return *this;
+    }
+    Request& timer(std::int64_t its_timer) {
+        field("timer", its_timer);
+        return *this;
+    }
 };
 
 /// The call of the last `Request` of this body and thread came back.
@@ -226,6 +242,7 @@ class Request : public Event {
 /// `results`: OUT, INOUT and RETURN values of a method, or fields of `exception`.
 /// `exception`: name of the declared exception.
 /// `wrong`: what came back that is not of the type of the interface, for people.
+/// `timer`: the object timer that came back: its number, as that of `Enter`.
 class Reply : public Event {
   public:
     Reply(const std::string& component, std::int64_t instance, const std::string& port)
@@ -252,6 +269,10 @@ class Reply : public Event {
     }
     Reply& wrong(const std::string& its_wrong) {
         field("wrong", its_wrong);
+        return *this;
+    }
+    Reply& timer(std::int64_t its_timer) {
+        field("timer", its_timer);
         return *this;
     }
 };

@@ -58,6 +58,15 @@ struct FromClock {
     std::string method;
 };
 
+/// An object timer of 10.3.1 that a body was given before.
+///
+/// `method`: a method of the scheduler that returned it to the body, or `on_trigger`, which handed it over.
+/// `nth`: its number among the timers that came so, from 1; 0 is that of the entry in which the body acts.
+struct TimerFrom {
+    std::string method;
+    std::int32_t nth = 0;
+};
+
 enum class ActionKind {
     raise, return_value, call, hold, siblings, call_method, answer, burst, count
 };
@@ -99,6 +108,14 @@ struct Action {
     /// Of call_method.
     FromClock from_clock;
     bool has_from_clock = false;
+
+    /// Of call_method.
+    std::string handler;
+    bool has_handler = false;
+
+    /// Of call_method.
+    TimerFrom on;
+    bool has_on = false;
 
     /// Of answer.
     std::vector<Datum> results;
@@ -158,6 +175,8 @@ struct Policy {
 /// `policies`: technical policies.
 /// `ports`: the interface of each port element that has one, by name.
 /// `defaults`: default values (9.2.7.4) by attribute name; they hold for attributes that are not configured.
+/// `handlers`: the body's own handlers of object timers (10.3.1). Each is entered at `method`, with its name as the
+/// port element.
 struct Declaration {
     std::vector<std::string> provided;
     std::vector<std::string> required;
@@ -168,6 +187,7 @@ struct Declaration {
     std::vector<Policy> policies;
     std::map<std::string, std::string> ports;
     std::map<std::string, std::string> defaults;
+    std::vector<std::string> handlers;
 };
 
 enum class StepKind {

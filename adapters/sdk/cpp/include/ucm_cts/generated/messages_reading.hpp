@@ -14,6 +14,7 @@ namespace ucm_cts {
 inline void read(const json::Value& value, Hello& into);
 inline void read(const json::Value& value, Remembered& into);
 inline void read(const json::Value& value, FromClock& into);
+inline void read(const json::Value& value, TimerFrom& into);
 inline void read(const json::Value& value, Action& into);
 inline void read(const json::Value& value, Policy& into);
 inline void read(const json::Value& value, Declaration& into);
@@ -51,6 +52,13 @@ inline void read(const json::Value& value, FromClock& into) {
     fields.end();
 }
 
+inline void read(const json::Value& value, TimerFrom& into) {
+    json::Fields fields(value);
+    fields.required("method", into.method);
+    fields.optional("nth", into.nth);
+    fields.end();
+}
+
 inline void read_members(json::Fields& fields, Action& into) {
     switch (into.kind) {
         case Action::Kind::raise:
@@ -74,6 +82,8 @@ inline void read_members(json::Fields& fields, Action& into) {
             fields.optional("remembered", into.remembered);
             into.has_given = fields.nullable("given", into.given);
             into.has_from_clock = fields.nullable("from_clock", into.from_clock);
+            into.has_handler = fields.nullable("handler", into.handler);
+            into.has_on = fields.nullable("on", into.on);
             break;
         case Action::Kind::answer:
             fields.required("method", into.method);
@@ -117,6 +127,7 @@ inline void read(const json::Value& value, Declaration& into) {
     fields.optional("policies", into.policies);
     fields.optional("ports", into.ports);
     fields.optional("defaults", into.defaults);
+    fields.optional("handlers", into.handlers);
     fields.end();
 }
 

@@ -100,6 +100,34 @@ final class Messages {
         return FROMCLOCK.read(value, place);
     }
 
+    private static final Shape TIMERFROM = object(TimerFrom::new,
+            needs("method", TEXT),
+            may("nth", INT32, 0L));
+
+    /**
+     * An object timer of 10.3.1 that a body was given before.
+     *
+     * `method`: a method of the scheduler that returned it to the body, or `on_trigger`, which handed it over.
+     * `nth`: its number among the timers that came so, from 1; 0 is that of the entry in which the body acts.
+     */
+    static final class TimerFrom extends Node {
+        private TimerFrom(Map<String, Object> fields) {
+            super(fields);
+        }
+
+        String method() {
+            return text("method");
+        }
+
+        long nth() {
+            return number("nth");
+        }
+    }
+
+    static Object readTimerFrom(Object value, String place) throws Misfit {
+        return TIMERFROM.read(value, place);
+    }
+
     private static final Shape ACTION = tagged("do", Action::new,
             new Kind("raise"),
             new Kind("return",
@@ -116,7 +144,9 @@ final class Messages {
                     may("arguments", list(DATUM), List.of()),
                     may("remembered", list(Messages::readRemembered), List.of()),
                     may("given", orNull(INT32), null),
-                    may("from_clock", orNull(Messages::readFromClock), null)),
+                    may("from_clock", orNull(Messages::readFromClock), null),
+                    may("handler", orNull(TEXT), null),
+                    may("on", orNull(Messages::readTimerFrom), null)),
             new Kind("answer",
                     needs("method", TEXT),
                     may("results", orNull(list(DATUM)), null),
@@ -177,6 +207,16 @@ final class Messages {
         /** Of call_method. */
         FromClock fromClock() {
             return as(get("from_clock"));
+        }
+
+        /** Of call_method. */
+        String handler() {
+            return text("handler");
+        }
+
+        /** Of call_method. */
+        TimerFrom on() {
+            return as(get("on"));
         }
 
         /** Of answer. */
@@ -269,7 +309,8 @@ final class Messages {
             may("plan", map(HOOK, list(Messages::readAction)), new Node(Map.of())),
             may("policies", list(Messages::readPolicy), List.of()),
             may("ports", map(TEXT, TEXT), new Node(Map.of())),
-            may("defaults", map(TEXT, TEXT), new Node(Map.of())));
+            may("defaults", map(TEXT, TEXT), new Node(Map.of())),
+            may("handlers", list(TEXT), List.of()));
 
     /**
      * A component implementation that the framework must be able to instantiate: a probe body and its plan.
@@ -283,6 +324,8 @@ final class Messages {
      * `policies`: technical policies.
      * `ports`: the interface of each port element that has one, by name.
      * `defaults`: default values (9.2.7.4) by attribute name; they hold for attributes that are not configured.
+     * `handlers`: the body's own handlers of object timers (10.3.1). Each is entered at `method`, with its name as the
+     * port element.
      */
     static final class Declaration extends Node {
         private Declaration(Map<String, Object> fields) {
@@ -323,6 +366,10 @@ final class Messages {
 
         Map<String, String> defaults() {
             return as(node("defaults").fields());
+        }
+
+        List<String> handlers() {
+            return as(get("handlers"));
         }
     }
 

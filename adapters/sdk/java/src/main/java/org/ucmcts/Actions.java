@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.function.Function;
 import org.ucmcts.Messages.Action;
 import org.ucmcts.Messages.FromClock;
 
@@ -25,13 +26,7 @@ final class Actions {
     void act(Action action, Memory.Entry entry) {
         switch (action.tag()) {
             case "call" -> referencesOf(action.port()).forEach(reference -> exchange(action, reference));
-            case "call_method" -> {
-                List<Object> given = arguments(action, entry);
-                if (given != null) {
-                    referencesOf(action.port()).forEach(
-                            reference -> call(action.port(), action.method(), given, reference));
-                }
-            }
+            case "call_method" -> callMethod(action, entry);
             case "burst" -> referencesOf(action.port()).forEach(reference -> push(action, reference));
             case "hold" -> {
                 String gate = action.gate();
@@ -46,6 +41,28 @@ final class Actions {
         return references.getOrDefault(port, List.of());
     }
 
+    /** Makes the calls of {@code action}, if what they need is there. */
+    private void callMethod(Action action, Memory.Entry entry) {
+        List<Object> given = arguments(action, entry);
+        if (given == null) {
+            return;
+        }
+        String method = action.method();
+        if (action.on() != null) {
+            Memory.Timer of = probe.memory.timer(action.on(), entry);
+            if (of != null) {
+                call(new Callee(action.port(), method, action.handler(), of.number()), given,
+                        arguments -> ObjectTimers.call(of.timer(), method, arguments));
+            }
+            return;
+        }
+        Callee callee = new Callee(action.port(), method, action.handler(), null);
+        TimerHandler handler = probe.handlers.get(action.handler());
+        referencesOf(action.port()).forEach(reference -> call(callee, given, action.handler() == null
+                ? arguments -> reference.call(method, arguments)
+                : arguments -> ObjectTimers.schedule(reference, method, handler, arguments)));
+    }
+
     /**
      * What {@code action} calls with, null if it is not to call. The body's clock is read for an argument that is a
      * date.
@@ -57,9 +74,12 @@ final class Actions {
             return given;
         }
         List<PortElement> clocks = referencesOf(of.port());
-        return clocks.isEmpty()
-                ? null
-                : Timers.dateFrom(given, of.argument(), call(of.port(), of.method(), List.of(), clocks.get(0)));
+        if (clocks.isEmpty()) {
+            return null;
+        }
+        List<Object> time = call(new Callee(of.port(), of.method(), null, null), List.of(),
+                arguments -> clocks.get(0).call(of.method(), arguments));
+        return Timers.dateFrom(given, of.argument(), time);
     }
 
     private void exchange(Action action, PortElement reference) {
@@ -76,13 +96,26 @@ final class Actions {
         probe.record("reply", "port", port, "value", result);
     }
 
-    /** Returns the results as recorded, nothing if it threw. */
-    private List<Object> call(String port, String method, List<Object> given, PortElement reference) {
+    /**
+     * What a call is recorded with: the name of the {@code handler} that is passed, the number of the object {@code
+     * timer} that is called; null if there is none.
+     */
+    private record Callee(String port, String method, String handler, Long timer) {}
+
+    /** Makes a call: takes arguments, gives results. Returns the results as recorded, nothing if it threw. */
+    private List<Object> call(Callee callee, List<Object> given, Function<List<Object>, List<?>> calling) {
+        String port = callee.port();
         List<Object> arguments = Data.copy(given);
         List<Object> answer = List.of();
-        probe.record("request", "port", port, "method", method, "arguments", given);
+        probe.record("request", "port", port, "method", callee.method(), "arguments", given,
+                "handler", callee.handler(), "timer", callee.timer());
         try {
-            answer = reply(port, reference.call(method, arguments), null);
+            List<?> results = calling.apply(arguments);
+            if (callee.handler() == null) {
+                answer = reply(port, results, null);
+            } else {
+                replyWithTimer(callee, results);
+            }
         } catch (DeclaredException error) {
             reply(port, error.fields(), error.name());
         } catch (Throwable error) { // the callee may throw anything
@@ -92,12 +125,26 @@ final class Actions {
         return answer;
     }
 
-    private List<Object> reply(String port, List<Object> results, String exception) {
+    private List<Object> reply(String port, List<?> results, String exception) {
         boolean isSound = Data.isData(results);
         List<Object> given = isSound ? Data.copy(results) : List.of();
         String wrong = isSound ? null : Data.inWords(results);
         probe.record("reply", "port", port, "results", given, "exception", exception, "wrong", wrong);
         return given;
+    }
+
+    /** A scheduler has returned: a timer, nothing, or null where a timer is due. */
+    private void replyWithTimer(Callee callee, List<?> results) {
+        String port = callee.port();
+        if (results.isEmpty()) {
+            probe.record("reply", "port", port, "results", List.of());
+        } else if (results.get(0) instanceof ObjectTimer timer) {
+            probe.memory.takeTimer(callee.method(), timer,
+                    number -> probe.record("reply", "port", port, "results", List.of(), "timer", number));
+        } else {
+            String wrong = Data.inWords(results.get(0)) + " as the timer";
+            probe.record("reply", "port", port, "results", List.of(), "wrong", wrong);
+        }
     }
 
     private void push(Action action, PortElement reference) {

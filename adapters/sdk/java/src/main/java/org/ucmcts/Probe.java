@@ -1,6 +1,7 @@
 package org.ucmcts;
 
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.Collections;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
@@ -31,6 +32,7 @@ class Probe implements Body {
     private final Map<String, String> attributes = Collections.synchronizedMap(new LinkedHashMap<>());
     private final Actions actions;
     final Memory memory;
+    final Map<String, TimerHandler> handlers = new HashMap<>();
 
     private Probe(Stage stage, String component, Declaration declaration) {
         this.stage = stage;
@@ -47,6 +49,9 @@ class Probe implements Body {
         execution = executesItself ? this::run : null;
         boolean hasTimers = declaration.policies().stream().anyMatch(p -> Timers.POLICY.equals(p.definition()));
         timerCallback = hasTimers ? new Port(this, Timers.CALLBACK) : null;
+        for (String name : declaration.handlers()) {
+            handlers.put(name, (timer, deltaTime, round) -> onTrigger(name, timer, deltaTime, round));
+        }
     }
 
     /** The next body for {@code component}. */
@@ -210,9 +215,45 @@ class Probe implements Body {
         }
         List<Object> given = isSound ? Data.copy(arguments) : List.of();
         String wrong = isSound && !counts ? null : Data.inWords(arguments);
-        Memory.Entry entry = new Memory.Entry(method, given, null);
-        memory.enter(entry, () -> record(
-                "enter", "hook", "method", "port", port, "method", method, "arguments", given, "wrong", wrong));
+        Action answer = follow(method, enter(port, method, given, wrong, null));
+        List<Object> results = answer == null ? List.of() : answer.results();
+        results = Data.copy(results == null ? given : results);
+        String exception = answer == null ? null : answer.exception();
+        record("exit", "hook", "method", "results", Data.copy(results), "exception", exception);
+        if (answer != null && answer.overwrite() && arguments != null) {
+            Data.overwrite(arguments);
+        }
+        if (exception != null) {
+            throw new DeclaredException(exception, results);
+        }
+        return results;
+    }
+
+    /** The method of a handler of object timers, which gives no results. */
+    private void onTrigger(String handler, ObjectTimer timer, List<? extends Number> deltaTime, long round) {
+        if (!stage.recorder.isRecording()) {
+            return;
+        }
+        List<Object> arguments = Arrays.asList(deltaTime, round);
+        String wrong = Data.isData(arguments) ? null : Data.inWords(arguments);
+        if (timer == null) {
+            wrong = Data.inWords(null) + " as the timer";
+        }
+        List<Object> given = wrong == null ? Data.copy(arguments) : List.of();
+        follow(ObjectTimers.ON_TRIGGER,
+                enter(handler, ObjectTimers.ON_TRIGGER, given, wrong, wrong == null ? timer : null));
+        record("exit", "hook", "method", "results", List.of());
+    }
+
+    /** Records an entry at a method, with the object timer that came with it, or null. */
+    private Memory.Entry enter(String port, String method, List<Object> given, String wrong, ObjectTimer timer) {
+        return memory.enter(method, given, timer, entry -> record(
+                "enter", "hook", "method", "port", port, "method", method, "arguments", given, "wrong", wrong,
+                "timer", entry.timer()));
+    }
+
+    /** Carries out the plan for an entry at {@code method}; returns its answer, null if it has none. */
+    private Action follow(String method, Memory.Entry entry) {
         Action answer = null;
         for (Action action : actions("method")) {
             if (action.tag().equals("raise")) {
@@ -225,17 +266,7 @@ class Probe implements Body {
                 answer = action;
             }
         }
-        List<Object> results = answer == null ? List.of() : answer.results();
-        results = Data.copy(results == null ? given : results);
-        String exception = answer == null ? null : answer.exception();
-        record("exit", "hook", "method", "results", Data.copy(results), "exception", exception);
-        if (answer != null && answer.overwrite() && arguments != null) {
-            Data.overwrite(arguments);
-        }
-        if (exception != null) {
-            throw new DeclaredException(exception, results);
-        }
-        return results;
+        return answer;
     }
 
     /**
@@ -251,7 +282,7 @@ class Probe implements Body {
         Collections.addAll(entered, arguments);
         record("enter", entered.toArray());
         Integer returned = result;
-        Memory.Entry entry = new Memory.Entry("", List.of(), given);
+        Memory.Entry entry = new Memory.Entry("", List.of(), given, null);
         for (Action action : actions(hook)) {
             switch (action.tag()) {
                 case "raise" -> {

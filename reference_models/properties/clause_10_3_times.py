@@ -1,4 +1,4 @@
-"""Properties about the times of index timers: dates, times that are unusual, missed expiries, and what callbacks tell (10.3.2)."""
+"""Properties about the times of timers: dates, times that are unusual, missed expiries, and what callbacks of index timers tell (10.3)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import MILLISECOND
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, shown
 from ucm_cts.reference_models.model.phases import noticed
-from ucm_cts.reference_models.model.timer_events import SECOND, TimeOut, Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.timer_events import SECOND, Kind, TimeOut, Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_times import (
     CLOCKS,
     MOST,
@@ -22,11 +22,16 @@ from ucm_cts.reference_models.model.timer_times import (
     read_before,
     read_in,
 )
-from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
+from ucm_cts.reference_models.model.timers import all_timer_phases
+from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_EARLY, _DATES, _RATE, _TIME_TOLD = "R-10.3.2-25", "R-10.3.2-28", "R-10.3.2-32", "R-10.3.2-35"
-_LATE, _PHASES = "R-10.3.2-26", "R-10.3.2-42"
+_DATES, _TIME_TOLD = "R-10.3.2-28", "R-10.3.2-35"
+_EARLY: dict[Kind, str] = {"index": "R-10.3.2-25", "object": "R-10.3.1-19"}
+_LATE: dict[Kind, str] = {"index": "R-10.3.2-26", "object": "R-10.3.1-20"}
+_RATE: dict[Kind, str] = {"index": "R-10.3.2-32", "object": "R-10.3.1-22"}
+_PHASES: dict[Kind, str] = {"index": "R-10.3.2-42", "object": "R-10.3.1-35"}
+_UNUSUAL = tuple(id_ for one in (_EARLY, _RATE, _LATE, _PHASES) for id_ in one.values())
 
 
 def _clocks(runtime: ObservedRuntime) -> list[str]:
@@ -89,10 +94,10 @@ def _was_set(runtime: ObservedRuntime, earlier: ClockReading, later: ClockReadin
     return abs(passed(earlier.time, later.time) - (later.asked - earlier.asked)) > tolerance + SECOND // 10
 
 
-@property_at("closed", _EARLY, _DATES, _RATE, _LATE, _PHASES, feature="timers", timed=True)
+@property_at("closed", *_UNUSUAL, _DATES, feature="timers", timed=True)
 def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A time-out of zero, a date that has passed, a rate with the flag of dates, and a timer that is set in on_startup do what is declared."""
-    for phase in timer_phases(runtime):
+    for phase in all_timer_phases(runtime):
         for timer in phase.timers:
             if timer.is_contested or timer.cancels or not timer.is_started:
                 continue
@@ -100,13 +105,15 @@ def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if timer.is_in_startup:
                 if timer.has_usual_times:
                     value = "works" if timer.callbacks else "ignored"
-                    yield from _takes(check, runtime, timer, "timer-in-startup", value, due, _PHASES)
+                    yield from _takes(check, runtime, timer, "timer-in-startup", value, due, _PHASES[timer.kind])
             elif timer.rate is not None and timer.rate.is_absolute:
                 value = "ignored" if timer.callbacks else "refused"
-                yield from _takes(check, runtime, timer, "absolute-rate", value, latest(runtime, timer, 1), _RATE)
-            elif timer.delay == (0, False):
+                yield from _takes(
+                    check, runtime, timer, "absolute-rate", value, latest(runtime, timer, 1), _RATE[timer.kind]
+                )
+            elif timer.has_no_delay and timer.max_rounds != 0:
                 value = "at-once" if timer.callbacks else "ignored"
-                yield from _takes(check, runtime, timer, "zero-delay", value, due, _EARLY)
+                yield from _takes(check, runtime, timer, "zero-delay", value, due, _EARLY[timer.kind])
                 yield from _at_once(check, runtime, timer, due)
             elif timer.delay.is_absolute:
                 read = [r for m in _clocks(runtime) if (r := read_before(timer, m)) is not None]
@@ -127,10 +134,10 @@ def _at_once(check: Property, runtime: ObservedRuntime, timer: Timer, due: int |
     if free is not None and callback.t > limit:
         yield check.fail(
             "late",
-            expected=f"timer {timer.number} of '{timer.phase.member.lane}', which is due when it is started, calls back at once",
+            expected=f"{timer.label} of '{timer.phase.member.lane}', which is due when it is started, calls back at once",
             observed=f"it called back {shown(callback.t - limit)} later than timer-lateness permits",
             at=at_of(timer, callback),
-            requirement=_LATE,
+            requirement=_LATE[timer.kind],
         )
 
 
@@ -145,22 +152,24 @@ def _takes(
 ) -> Conclusions:
     """Is ``value``, which is what the timer did, permitted for ``option``? ``due`` is until when that was to be seen."""
     free = None if due is None else free_after(runtime, timer, due, timer.until[1])
+    if free is not None and free != due and timer.rate is not None:
+        free += timer.rate.lasts  # the first one may have been left out
     if due is None or free is None or (free + lateness(runtime) > timer.until[1] and not timer.callbacks):
         return
     if not (yield from takes(runtime, option, value)):
         yield check.fail(
             option,
-            expected=f"timer {timer.number} of '{timer.phase.member.lane}' behaves as declared: {option}={runtime.ics.reading(option)}",
+            expected=f"{timer.label} of '{timer.phase.member.lane}' behaves as declared: {option}={runtime.ics.reading(option)}",
             observed=f"it did as under '{value}'",
             at=at_of(timer, *timer.callbacks[:1]),
             requirement=requirement,
         )
 
 
-@property_at("closed", _RATE, feature="timers", timed=True)
+@property_at("closed", *_RATE.values(), feature="timers", timed=True)
 def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """What becomes of expiries while a callback lasts is as declared: caught up, left out, merged, or the grid begins anew."""
-    for phase in timer_phases(runtime):
+    for phase in all_timer_phases(runtime):
         for timer in phase.timers:
             if timer.rate is None or not timer.has_usual_times or timer.is_contested or not timer.is_started:
                 continue
@@ -177,9 +186,10 @@ def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 continue
             yield check.fail(
                 "overrun",
-                expected=f"expiries of timer {timer.number} of '{phase.member.lane}' while it is executed are treated as declared: {declared}",
+                expected=f"expiries of {timer.label} of '{phase.member.lane}' while it is executed are treated as declared: {declared}",
                 observed=f"they were treated as under {' or '.join(sorted(fitting))}",
                 at=at_of(timer, *timer.callbacks[number : number + 3]),
+                requirement=_RATE[timer.kind],
             )
 
 

@@ -1,4 +1,4 @@
-"""Properties about when index timers call back: never early, in time, once or again and again (10.3.2)."""
+"""Properties about when timers call back: never early, in time, once or again and again (10.3)."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model.index_timers import all_timers, timer_phases
+from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness, shown
 from ucm_cts.reference_models.model.phases import noticed
-from ucm_cts.reference_models.model.timer_events import Timer
+from ucm_cts.reference_models.model.timer_events import Kind, Timer
 from ucm_cts.reference_models.model.timer_times import (
     MOST,
     earliest,
@@ -21,15 +21,31 @@ from ucm_cts.reference_models.model.timer_times import (
     may_be_delayed,
     overrun,
 )
-from ucm_cts.reference_models.properties.clause_10_3_2 import at_of
+from ucm_cts.reference_models.model.timers import all_timers
+from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_EXPIRES, _EARLY, _LATE, _OWN_START = "R-10.3.2-21", "R-10.3.2-25", "R-10.3.2-26", "R-10.3.2-27"
-_ONCE, _AGAIN, _FIRST, _RATE = "R-10.3.2-29", "R-10.3.2-30", "R-10.3.2-31", "R-10.3.2-32"
-_NUMBERS, _SEVERAL, _APART = "R-10.3.2-33", "R-10.3.2-36", "R-10.3.2-37"
-_ONE_ONLY, _IN_THE_END = "R-10.3.2-39", "R-10.3.2-44"
-_ANEW = "R-10.3-04"
-_MISSING = (_ANEW, _EXPIRES, _AGAIN, _NUMBERS, _SEVERAL, _APART, _ONE_ONLY, _IN_THE_END)
+_OfKind = dict[Kind, str]
+"""A requirement of each kind of timers."""
+
+_EXPIRES: _OfKind = {"index": "R-10.3.2-21", "object": "R-10.3.1-18"}
+_EARLY: _OfKind = {"index": "R-10.3.2-25", "object": "R-10.3.1-19"}
+_LATE: _OfKind = {"index": "R-10.3.2-26", "object": "R-10.3.1-20"}
+_ONCE: _OfKind = {"index": "R-10.3.2-29", "object": _EXPIRES["object"]}
+_AGAIN: _OfKind = {"index": "R-10.3.2-30", "object": "R-10.3.1-23"}
+_FIRST: _OfKind = {"index": "R-10.3.2-31", "object": "R-10.3.1-21"}
+_RATE: _OfKind = {"index": "R-10.3.2-32", "object": "R-10.3.1-22"}
+_SEVERAL: _OfKind = {"index": "R-10.3.2-36", "object": "R-10.3.1-34"}
+_ONE_ONLY: _OfKind = {"index": "R-10.3.2-39", "object": "R-10.3.1-32"}
+_IN_THE_END: _OfKind = {"index": "R-10.3.2-44", "object": "R-10.3.1-36"}
+_OWN_START, _NUMBERS, _APART, _ANEW = "R-10.3.2-27", "R-10.3.2-33", "R-10.3.2-37", "R-10.3-04"
+
+
+def _both(*requirements: _OfKind) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(id_ for one in requirements for id_ in one.values()))
+
+
+_MISSING = (_ANEW, *_both(_EXPIRES, _AGAIN, _SEVERAL, _ONE_ONLY, _IN_THE_END), _NUMBERS, _APART)
 
 _ENOUGH, _AT_ONCE = 3, 3
 """So many callbacks show that a timer repeats, and so many timers that wait at once are several."""
@@ -45,21 +61,21 @@ def _judged(runtime: ObservedRuntime) -> list[Timer]:
     return [t for t in all_timers(runtime) if t.has_usual_times and not t.is_contested and t.is_started]
 
 
-@property_at("closed", _EARLY, _FIRST, _RATE, feature="timers", timed=True)
+@property_at("closed", *_both(_EARLY, _FIRST, _RATE), feature="timers", timed=True)
 def timers_never_early(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """No callback comes before its time has passed since its timer was started."""
     for timer in _judged(runtime):
         for number, callback in enumerate(timer.callbacks[:MOST]):
-            if timer.rate is None and number:
+            if timer.most is not None and number >= timer.most:
                 break
             due = earliest(runtime, timer, number)
-            requirement = _EARLY if timer.rate is None else _RATE if number else _FIRST
+            requirement = _of_time(timer, number, _EARLY)
             if due is None or callback.t >= due:
                 yield check.kept(requirement)
                 continue
             yield check.fail(
                 "early",
-                expected=f"timer {timer.number} of '{timer.phase.member.lane}' calls back {_asked(timer, number)}",
+                expected=f"{timer.label} of '{timer.phase.member.lane}' calls back {_asked(timer, number)}",
                 observed=f"it called back {shown(due - callback.t)} too early",
                 at=at_of(timer, *timer.callbacks[: number + 1]),
                 requirement=requirement,
@@ -67,16 +83,21 @@ def timers_never_early(check: Property, runtime: ObservedRuntime) -> Conclusions
             break
 
 
+def _of_time(timer: Timer, number: int, of_single: _OfKind) -> str:
+    """The requirement about the time of callback ``number``; ``of_single`` is that of timers that do not repeat."""
+    return (of_single if timer.rate is None else _RATE if number else _FIRST)[timer.kind]
+
+
 def _asked(timer: Timer, number: int) -> str:
-    first = f"{timer.delay.seconds} s after it was started"
+    first = f"{timer.delay.shown} after it was started"
     if timer.delay.is_absolute:
-        first = f"when the clock shows {timer.delay.seconds} s"
+        first = f"when the clock shows {timer.delay.shown}"
     if timer.rate is None:
         return first
-    return f"the first time {first}" if not number else f"every {timer.rate.seconds} s, the first time {first}"
+    return f"the first time {first}" if not number else f"every {timer.rate.shown}, the first time {first}"
 
 
-@property_at("closed", _LATE, _FIRST, _RATE, *_MISSING, feature="timers", timed=True)
+@property_at("closed", *_both(_LATE, _FIRST, _RATE), *_MISSING, feature="timers", timed=True)
 def timers_expire_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Each expiry calls back, within the declared lateness if nothing holds the component."""
     come: list[Timer] = []
@@ -107,7 +128,7 @@ def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | 
     disturbed = overrun(runtime, timer)
     for number in range(min(len(timer.callbacks) + 1, MOST)):
         due = latest(runtime, timer, number)
-        if due is None or (number and timer.rate is None):
+        if due is None or (timer.most is not None and number >= timer.most):
             return None
         if number > disturbed:
             return _stops(check, runtime, timer)
@@ -136,6 +157,8 @@ def _stops(
 ) -> Finding | None:
     """After an execution that lasted for a period, or kept a callback out until ``free``: callbacks still come."""
     assert timer.rate is not None
+    if timer.most is not None:
+        return None  # what a bounded one does after that, its rounds tell
     ends = (e.left if e.over else timer.until[1] for e in timer.phase.executions)
     quiet_since = max([free, *(callback.t for callback in timer.callbacks[-1:]), *ends])
     if timer.until[1] - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
@@ -150,12 +173,12 @@ def _untimely(
         requirement = _why_missing(runtime, timer, number, was_busy)
         observed = f"callback {number + 1} did not come" if timer.rate is not None else "it did not"
     else:
-        requirement = _LATE if timer.rate is None else _RATE if number else _FIRST
+        requirement = _of_time(timer, number, _LATE)
         observed = f"it called back {shown(by)} later than timer-lateness permits"
     busy = ", once the component is free" if was_busy else ""
     return check.fail(
         "never" if by is None else "late",
-        expected=f"timer {timer.number} of '{timer.phase.member.lane}' calls back {_asked(timer, number)}{busy}",
+        expected=f"{timer.label} of '{timer.phase.member.lane}' calls back {_asked(timer, number)}{busy}",
         observed=observed,
         at=(
             *at_of(timer, *timer.callbacks[: number + 1]),
@@ -168,51 +191,61 @@ def _untimely(
 def _why_missing(runtime: ObservedRuntime, timer: Timer, number: int, was_busy: bool) -> str:
     """The requirement that is broken if callback ``number`` does not come: the one about what sets the timer apart."""
     others = [t for t in all_timers(runtime) if t is not timer and t.call.request.n < timer.until[0]]
-    elsewhere = [t for t in others if t.phase.member is not timer.phase.member and t.number == timer.number]
+    elsewhere = [t for t in others if _shares_number(t, timer)]
     here = [t for t in others if t.phase is timer.phase]
+    cancelled = [t for t in others if t.kind == timer.kind == "object"] or here
     if any(t.call.request.n > timer.call.request.n or t.cancels for t in elsewhere):
         return _APART
     due = latest(runtime, timer, number) or timer.until[1]
-    cancels = [t.cancelled.request for t in here if t.cancelled is not None]
+    cancels = [t.cancelled.request for t in cancelled if t.cancelled is not None]
     if any(timer.call.request.n < cancel.n and cancel.t < due for cancel in cancels):
-        return _ONE_ONLY
+        return _ONE_ONLY[timer.kind]
     if was_busy:
-        return _IN_THE_END
+        return _IN_THE_END[timer.kind]
     if any(t.again is timer.call for t in here):
         return _ANEW
-    if timer.number not in _USUAL_NUMBERS:
+    if timer.kind == "index" and timer.number not in _USUAL_NUMBERS:
         return _NUMBERS
-    if number:
-        return _AGAIN
-    return _SEVERAL if here else _EXPIRES
+    if number or timer.max_rounds is not None:
+        return _AGAIN[timer.kind]
+    return (_SEVERAL if here else _EXPIRES)[timer.kind]
+
+
+def _shares_number(one: Timer, other: Timer) -> bool:
+    """Are these index timers of two components, with one number?"""
+    return (
+        one.kind == other.kind == "index" and one.number == other.number and one.phase.member is not other.phase.member
+    )
 
 
 def _kept(check: Property, runtime: ObservedRuntime, timer: Timer, come: Sequence[Timer]) -> Conclusions:
     """What a timer that came in time has shown."""
-    yield check.kept(_EXPIRES)
-    yield check.kept(_LATE)
+    if timer.kind == "index" or timer.rate is None:
+        yield check.kept(_EXPIRES[timer.kind])
+    yield check.kept(_LATE[timer.kind])
     due = earliest(runtime, timer, 0)
     if due is not None and timer.rate is None and is_kept_out(runtime, timer, timer.callbacks[0], due):
-        yield check.kept(_IN_THE_END)
+        yield check.kept(_IN_THE_END[timer.kind])
     if timer.rate is not None:
-        yield check.kept(_FIRST)
+        yield check.kept(_FIRST[timer.kind])
         if len(timer.callbacks) >= _ENOUGH:
-            yield check.kept(_AGAIN)
-            yield check.kept(_RATE)
+            yield check.kept(_RATE[timer.kind])
+            if timer.kind == "index":
+                yield check.kept(_AGAIN["index"])
     at_once = [t for t in come if t.phase is timer.phase and t.call.request.n < timer.callbacks[0].n]
     if len({t.number for t in at_once}) >= _AT_ONCE:
-        yield check.kept(_SEVERAL)
-    if timer.number not in _USUAL_NUMBERS:
+        yield check.kept(_SEVERAL[timer.kind])
+    if timer.kind == "index" and timer.number not in _USUAL_NUMBERS:
         yield check.kept(_NUMBERS)
     if any(t.again is timer.call and t.cancels for t in timer.phase.timers):
         yield check.kept(_ANEW)
     span = timer.call.request.n, timer.callbacks[-1].n
-    elsewhere = [t for t in come if t.phase.member is not timer.phase.member and t.number == timer.number]
+    elsewhere = [t for t in come if _shares_number(t, timer)]
     if any(t.call.request.n < span[1] and span[0] < t.callbacks[-1].n for t in elsewhere):
         yield check.kept(_APART)
     cancels = [t.cancelled for t in timer.phase.timers if t.number != timer.number]
     if any(c is not None and c.reply is not None and span[0] < c.request.n < span[1] for c in cancels):
-        yield check.kept(_ONE_ONLY)
+        yield check.kept(_ONE_ONLY[timer.kind])
 
 
 @property_at("closed", _OWN_START, feature="timers", timed=True)
@@ -240,7 +273,7 @@ def relative_times_count_from_start(check: Property, runtime: ObservedRuntime) -
             break
 
 
-@property_at("closed", _ONCE, feature="timers", timed=True)
+@property_at("closed", *_both(_ONCE), feature="timers", timed=True)
 def sporadic_timers_come_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A sporadic timer calls back once, and not again within three further delays."""
     for timer in all_timers(runtime):
@@ -249,9 +282,10 @@ def sporadic_timers_come_once(check: Property, runtime: ObservedRuntime) -> Conc
         if len(timer.callbacks) > 1:
             yield check.fail(
                 "again",
-                expected=f"sporadic timer {timer.number} of '{timer.phase.member.lane}' calls back once",
+                expected=f"{timer.label} of '{timer.phase.member.lane}', which does not repeat, calls back once",
                 observed=f"it called back {len(timer.callbacks)} times",
                 at=at_of(timer, *timer.callbacks),
+                requirement=_ONCE[timer.kind],
             )
         elif timer.until[1] - timer.callbacks[0].t > _QUIET * timer.delay.lasts and not timer.delay.is_absolute:
-            yield check.kept()
+            yield check.kept(_ONCE[timer.kind])

@@ -1,0 +1,527 @@
+"""Wrong frameworks, clause 10.3.1: triggers come early, late, seldom, too often, or tell wrong things."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from ucm_cts.adapters.contract.programming_model import ObjectTimer
+from ucm_cts.adapters.mutants.python.methods import alters
+from ucm_cts.adapters.mutants.python.registry import MISSING_TRIGGERS, TRIGGERED, Base, Row, breaks, family
+from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.object_timers import Trigger, Triggers
+from ucm_cts.adapters.reference.python.timers import Timer
+
+_TIMES = ("R-10.3.1-19", "R-10.3.1-20", "R-10.3.1-21", "R-10.3.1-22", "R-10.3.1-26", "R-10.3.1-27")
+_EARLY = (*_TIMES, "R-10.3.1-31", "R-10.3.1-33", "R-10.3.1-18", "R-10.3.1-23", "R-10.3.1-35", "R-10.3.1-30")
+_LATE = (*_TIMES, *MISSING_TRIGGERS)
+
+
+class _Due(Triggers):
+    """``due`` makes another delay, in seconds, from the one that was asked for."""
+
+    due_after: Any = None
+
+    def _due(self, time_out: Sequence[Any]) -> float:
+        return time.monotonic() + float(self.due_after(time_out[0] + time_out[1] / 1e6))
+
+
+family(
+    _Due,
+    "due_after",
+    {
+        "triggers_a_little_early": Row("R-10.3.1-19", "A trigger is ten ms early.", lambda s: max(0, s - 0.01), _EARLY),
+        "triggers_at_half_its_time": Row("R-10.3.1-19", "A delay lasts half of its time.", lambda s: s / 2, _EARLY),
+        "triggers_at_once": Row("R-10.3.1-19", "Every timer is due at once.", lambda _: 0, _EARLY),
+        "drops_microseconds": Row("R-10.3.1-19", "Delays are whole seconds, rounded down.", math.floor, _EARLY),
+        "drops_seconds": Row("R-10.3.1-19", "Only the microseconds of a delay count.", lambda s: s % 1, _EARLY),
+        "rounds_delays": Row(
+            "R-10.3.1-19", "Delays are rounded to tenths of seconds.", lambda s: round(s, 1), (*_EARLY, *_LATE)
+        ),
+        "triggers_late": Row("R-10.3.1-20", "A trigger is a quarter of a second late.", lambda s: s + 0.25, _LATE),
+        "takes_delays_as_milliseconds": Row(
+            "R-10.3.1-19",
+            "The microseconds of a delay are taken as nanoseconds.",
+            lambda s: s // 1 + s % 1 / 1000,
+            _EARLY,
+        ),
+        "rounds_delays_up": Row("R-10.3.1-18", "Delays are whole seconds, rounded up.", math.ceil, _LATE),
+        "triggers_at_double_its_time": Row("R-10.3.1-20", "A delay lasts twice its time.", lambda s: 2 * s, _LATE),
+    },
+    TRIGGERED,
+)
+
+
+@breaks("R-10.3.1-18", clauses=TRIGGERED, also=(*_LATE, "R-10.3.1-25"))
+class never_triggers(Triggers):
+    """No timer ever triggers."""
+
+    def _next(self) -> Timer | None:
+        self.trigger.ended.wait()
+        return None
+
+
+@breaks("R-10.3.1-20", clauses=TRIGGERED, also=(*_LATE,))
+class looks_three_times_a_second(Triggers):
+    """Timers are looked after three times a second only."""
+
+    def _next(self) -> Timer | None:
+        timer = super()._next()
+        if timer is not None and time.monotonic() - timer.due < 0.05:
+            self.trigger.ended.wait(0.333 - time.monotonic() % 0.333)
+        return timer
+
+
+class _Bounded(Triggers):
+    """``rounds`` makes another number of rounds from the one that was asked for; ``is_single`` timers have it, too."""
+
+    rounds_made: Any = None
+
+    def _is_last(self, timer: Trigger) -> bool:
+        return timer.round + 1 >= int(self.rounds_made(timer.max_rounds))
+
+
+family(
+    _Bounded,
+    "rounds_made",
+    {
+        "makes_one_round_more": Row(
+            "R-10.3.1-23", "A repeated timer triggers once more.", lambda n: n + 1, ("R-10.3.1-31",)
+        ),
+        "makes_one_round_fewer": Row(
+            "R-10.3.1-23", "A repeated timer triggers once less.", lambda n: max(1, n - 1), MISSING_TRIGGERS
+        ),
+        "makes_one_round_only": Row(
+            "R-10.3.1-23", "A repeated timer triggers once.", lambda _: 1, (*MISSING_TRIGGERS, "R-10.3.1-24")
+        ),
+        "makes_two_rounds_always": Row(
+            "R-10.3.1-23", "A repeated timer triggers twice.", lambda _: 2, (*MISSING_TRIGGERS, "R-10.3.1-31")
+        ),
+        "makes_eight_rounds_at_most": Row(
+            "R-10.3.1-23", "A repeated timer triggers eight times at most.", lambda n: min(n, 8), MISSING_TRIGGERS
+        ),
+        "makes_rounds_without_end": Row(
+            "R-10.3.1-23", "A repeated timer triggers without end.", lambda _: 2**32, ("R-10.3.1-31", "R-10.3.1-30")
+        ),
+    },
+    TRIGGERED,
+)
+
+_ANOTHER = ("R-10.3.1-23", "R-10.3.1-24", "R-10.3.1-31", "R-10.3.1-19", "R-10.3.1-26", "R-10.3.1-27", "R-10.3.1-30")
+
+
+@breaks("R-10.3.1-18", clauses=TRIGGERED, also=_ANOTHER)
+class triggers_twice(Base):
+    """A timer with one trigger triggers twice."""
+
+    def _trigger(self, member: Member, triggers: Triggers, timer: Timer) -> None:
+        super()._trigger(member, triggers, timer)
+        assert isinstance(timer, Trigger)
+        if timer.rate is None and not triggers.trigger.ended.is_set():
+            timer.handler.on_trigger(triggers.given(timer), self._delta_time(timer), timer.round)
+
+
+@breaks("R-10.3.1-18", clauses=TRIGGERED, also=_ANOTHER)
+class triggers_again_later(Triggers):
+    """A timer with one trigger triggers again after another delay."""
+
+    def _following(self, timer: Timer) -> Timer | None:
+        following = super()._following(timer)
+        is_first = isinstance(timer, Trigger) and timer.rate is None and timer.due - timer.scheduled < 0.65
+        return replace(timer, due=timer.due + 0.7) if is_first else following
+
+
+class _Repeats(Triggers):
+    """``times`` makes another start delay and interval, in seconds, from those that were asked for."""
+
+    times: Any = None
+
+    def _start(self, timer: Timer) -> None:
+        if timer.rate is not None:
+            now = time.monotonic()
+            delay, rate = self.times(timer.due - now, timer.rate)
+            timer = replace(timer, due=now + delay, rate=rate)
+        super()._start(timer)
+
+
+_SERIES = (*_LATE, "R-10.3.1-23", "R-10.3.1-31", "R-10.3.1-24")
+
+family(
+    _Repeats,
+    "times",
+    {
+        "first_trigger_comes_at_once": Row(
+            "R-10.3.1-21", "The first repeated trigger comes at once.", lambda d, i: (0, i), (*_EARLY,)
+        ),
+        "first_trigger_comes_after_the_interval": Row(
+            "R-10.3.1-21",
+            "The first repeated trigger comes after one interval.",
+            lambda d, i: (i, i),
+            (*_EARLY, *_LATE),
+        ),
+        "first_trigger_comes_one_interval_late": Row(
+            "R-10.3.1-21", "The first repeated trigger comes one interval late.", lambda d, i: (d + i, i), _SERIES
+        ),
+        "first_trigger_comes_half_an_interval_late": Row(
+            "R-10.3.1-21",
+            "The first repeated trigger comes half an interval late.",
+            lambda d, i: (d + i / 2, i),
+            _SERIES,
+        ),
+        "repeats_after_the_start_delay": Row(
+            "R-10.3.1-22", "The start delay is the interval, too.", lambda d, i: (d, d), (*_EARLY, *_SERIES)
+        ),
+        "repeats_twice_as_often": Row("R-10.3.1-22", "The interval is half as long.", lambda d, i: (d, i / 2), _EARLY),
+        "repeats_half_as_often": Row("R-10.3.1-22", "The interval is twice as long.", lambda d, i: (d, 2 * i), _SERIES),
+        "repeats_a_little_too_often": Row(
+            "R-10.3.1-22", "The interval is 2 % too short.", lambda d, i: (d, 0.98 * i), _EARLY
+        ),
+        "repeats_a_little_too_seldom": Row(
+            "R-10.3.1-22", "The interval is 5 % too long.", lambda d, i: (d, 1.05 * i), _SERIES
+        ),
+        "counts_intervals_from_the_start": Row(
+            "R-10.3.1-22",
+            "The interval includes the start delay.",
+            lambda d, i: (d, max(0.05, i - d)),
+            (*_EARLY, *_SERIES),
+        ),
+    },
+    TRIGGERED,
+)
+
+
+@alters("_next_due", "R-10.3.1-22", clauses=TRIGGERED, also=_SERIES)
+def triggers_drift(_self: Triggers, due: float, _timer: Timer, _rate: float) -> float:
+    """Each interval lasts four milliseconds longer."""
+    return due + 0.004
+
+
+class _Rounds(Base):
+    """``told`` makes the round that a trigger tells."""
+
+    told: Any = None
+
+    def _round_told(self, timer: Trigger) -> int:
+        return self.told(timer)  # type: ignore[no-any-return]
+
+
+family(
+    _Rounds,
+    "told",
+    {
+        "tells_round_0_always": Row("R-10.3.1-24", "Every trigger tells round 0.", lambda timer: 0),
+        "counts_rounds_from_two": Row("R-10.3.1-24", "Rounds are counted from 2.", lambda timer: timer.round + 2),
+        "counts_rounds_by_two": Row("R-10.3.1-24", "Rounds rise by two.", lambda timer: 2 * timer.round),
+        "counts_rounds_down": Row(
+            "R-10.3.1-24", "Rounds are counted down.", lambda timer: timer.max_rounds - timer.round - 1
+        ),
+        "counts_rounds_modulo_four": Row("R-10.3.1-24", "Rounds begin anew after four.", lambda timer: timer.round % 4),
+        "counts_rounds_modulo_sixteen": Row(
+            "R-10.3.1-24", "Rounds begin anew after 16.", lambda timer: timer.round % 16
+        ),
+        "tells_all_rounds": Row(
+            "R-10.3.1-24", "Every trigger tells how many rounds there are.", lambda timer: timer.max_rounds
+        ),
+        "tells_a_text_as_the_round": Row("R-10.3.1-24", "The round is a text.", lambda timer: str(timer.round)),
+        "counts_rounds_from_one_undeclared": Row(
+            "R-10.3.1-24",
+            "Rounds are counted from 1, and 0 is declared.",
+            lambda timer: timer.round + 1,
+            (),
+            {"first-round": "zero"},
+        ),
+    },
+    TRIGGERED,
+)
+
+
+@breaks("R-10.3.1-24", clauses=TRIGGERED)
+class counts_rounds_of_all_timers(Base):
+    """Rounds count the triggers of all timers."""
+
+    def _round_told(self, timer: Trigger) -> int:
+        counts: dict[int, int] = self.manager.__dict__.setdefault("all_rounds", {})
+        key = 0
+        counts[key] = counts.get(key, -1) + 1
+        return counts[key]
+
+
+_HANDLERS = (
+    *MISSING_TRIGGERS,
+    *_TIMES,
+    "R-10.3.1-24",
+    "R-10.3.1-29",
+    "R-10.3.1-31",
+    "R-10.3.1-35",
+    "R-10.3.1-30",
+    "R-10.3.1-33",
+)
+
+
+@breaks("R-10.3.1-25", clauses=TRIGGERED, also=_HANDLERS)
+class calls_the_last_handler(Triggers):
+    """A timer calls the handler that was given last."""
+
+    def _start(self, timer: Timer) -> None:
+        assert isinstance(timer, Trigger)
+        self.__dict__["last_handler"] = timer.handler
+        super()._start(timer)
+
+    def _next(self) -> Timer | None:
+        timer = super()._next()
+        if timer is None:
+            return None
+        with self._changed:
+            current = self._waiting.get(timer.number)
+            if current is timer:
+                changed = replace(timer, handler=self.__dict__["last_handler"])  # type: ignore[call-arg]
+                self._waiting[timer.number] = changed
+                return changed
+        return timer
+
+
+@breaks("R-10.3.1-25", clauses=TRIGGERED, also=_HANDLERS)
+class calls_the_first_handler(Triggers):
+    """A timer calls the handler that was given first."""
+
+    def _start(self, timer: Timer) -> None:
+        assert isinstance(timer, Trigger)
+        first = self.__dict__.setdefault("first_handler", timer.handler)
+        super()._start(replace(timer, handler=first))
+
+
+@breaks("R-10.3.1-25", clauses=TRIGGERED, also=_HANDLERS)
+class calls_the_handler_before(Triggers):
+    """A timer calls the handler of the timer that was made before it."""
+
+    def _start(self, timer: Timer) -> None:
+        assert isinstance(timer, Trigger)
+        before = self.__dict__.get("handler_before", timer.handler)
+        self.__dict__["handler_before"] = timer.handler
+        super()._start(replace(timer, handler=before))
+
+
+class _HandsOver(Base):
+    """``_instead`` is handed over in place of the timer that triggers."""
+
+    def _instead(self, triggers: Triggers, timer: Trigger) -> Any:
+        raise NotImplementedError
+
+    def _timer_told(self, triggers: Triggers, timer: Trigger) -> ObjectTimer | None:
+        return self._instead(triggers, timer)  # type: ignore[no-any-return]
+
+
+_OBJECTS = (
+    *MISSING_TRIGGERS,
+    *_TIMES,
+    "R-10.3.1-24",
+    "R-10.3.1-25",
+    "R-10.3.1-29",
+    "R-10.3.1-30",
+    "R-10.3.1-31",
+    "R-10.3.1-33",
+    "R-10.3.1-01",
+    "R-10.3.1-28",
+)
+
+
+@breaks("R-10.3.1-26", clauses=TRIGGERED, also=(*_OBJECTS, "R-10.1.1-07", "R-10.1.1-08"))
+class hands_over_no_timer(_HandsOver):
+    """A handler gets a null reference for its timer."""
+
+    def _instead(self, triggers: Triggers, timer: Trigger) -> Any:
+        return None
+
+
+@breaks("R-10.3.1-26", clauses=TRIGGERED, also=_OBJECTS)
+class hands_over_the_first_timer(_HandsOver):
+    """A handler gets the timer that was made first."""
+
+    def _instead(self, triggers: Triggers, timer: Trigger) -> Any:
+        return triggers.given(replace(timer, number=1))
+
+
+@breaks("R-10.3.1-26", clauses=TRIGGERED, also=_OBJECTS)
+class hands_over_the_last_timer(_HandsOver):
+    """A handler gets the timer that was made last."""
+
+    def _instead(self, triggers: Triggers, timer: Trigger) -> Any:
+        last = max([timer.number, *triggers._waiting])
+        return triggers.given(replace(timer, number=last))
+
+
+@breaks("R-10.3.1-26", clauses=TRIGGERED, also=_OBJECTS)
+class hands_over_a_new_timer(_HandsOver):
+    """A handler gets a new object, with an identifier that no timer has."""
+
+    def _instead(self, triggers: Triggers, timer: Trigger) -> Any:
+        return triggers.given(replace(timer, number=triggers._new_number() + 1000))
+
+
+class _Delta(Base):
+    """``told`` makes the time difference that a trigger tells, of its time as the framework has it."""
+
+    told: Any = None
+
+    def _delta_time(self, timer: Trigger) -> Sequence[int]:
+        return self.told(timer, super()._delta_time(timer))  # type: ignore[no-any-return]
+
+
+family(
+    _Delta,
+    "told",
+    {
+        "tells_no_time_difference": Row(
+            "R-10.3.1-27",
+            "delta_time is 0, and the delay is declared.",
+            lambda *_: [0, 0],
+            (),
+            {"delta-time": "requested"},
+        ),
+        "tells_negative_time_differences": Row("R-10.3.1-27", "delta_time is negative.", lambda _, own: [-1, own[1]]),
+        "tells_milliseconds_of_difference": Row(
+            "R-10.3.1-27",
+            "delta_time has milliseconds where microseconds are due.",
+            lambda _, own: [own[0], own[1] // 1000],
+            (),
+            {"delta-time": "requested"},
+        ),
+        "tells_microseconds_only": Row(
+            "R-10.3.1-27", "delta_time is in microseconds alone.", lambda _, own: [0, own[0] * 10**6 + own[1] + 10**6]
+        ),
+        "tells_seconds_only": Row("R-10.3.1-27", "delta_time has seconds only.", lambda _, own: [own[0]]),
+        "tells_the_start_delay_always": Row(
+            "R-10.3.1-27",
+            "delta_time is the start delay, also in later rounds.",
+            lambda timer, _: list(timer.asked),
+            (),
+            {"delta-time": "requested"},
+        ),
+        "tells_lateness_undeclared": Row(
+            "R-10.3.1-27",
+            "delta_time is the lateness, and the time since the call is declared.",
+            lambda *_: [0, 500],
+            (),
+            {"delta-time": "since-scheduled"},
+        ),
+        "tells_the_delay_undeclared": Row(
+            "R-10.3.1-27",
+            "delta_time is the interval, and the time since the call is declared.",
+            lambda _, own: own,
+            (),
+            {"delta-time": "since-scheduled"},
+        ),
+        "tells_the_delay_as_lateness": Row(
+            "R-10.3.1-27",
+            "delta_time is the delay, and the lateness is declared.",
+            lambda _, own: own,
+            (),
+            {"delta-time": "lateness"},
+        ),
+    },
+    TRIGGERED,
+)
+
+
+class _Waits(Triggers):
+    """``most`` timers wait at once; others are due when one of them has ended, and then after their whole delay."""
+
+    most = 1
+
+    def _start(self, timer: Timer) -> None:
+        if len(self._waiting) < self.most:
+            super()._start(timer)
+        else:
+            self.__dict__.setdefault("queued", []).append(timer)
+
+    def take(self, timer: Timer) -> bool:
+        taken = super().take(timer)
+        queued = self.__dict__.get("queued")
+        if queued and len(self._waiting) < self.most:
+            following = queued.pop(0)
+            super()._start(replace(following, due=max(following.due, time.monotonic() + 0.3)))
+        return taken
+
+
+_QUEUED = (*_LATE, "R-10.3.1-20", "R-10.3.1-25", "R-10.3.1-31", "R-10.3.1-33")
+
+family(
+    _Waits,
+    "most",
+    {
+        "waits_for_one_timer": Row("R-10.3.1-34", "One timer waits at a time.", 1, _QUEUED),
+        "waits_for_two_timers": Row("R-10.3.1-34", "Two timers wait at a time.", 2, _QUEUED),
+        "waits_for_sixteen_timers": Row("R-10.3.1-20", "Sixteen timers wait at a time.", 16, _QUEUED),
+    },
+    TRIGGERED,
+)
+
+
+@breaks("R-10.3.1-34", clauses=TRIGGERED, also=_QUEUED)
+class replaces_the_timer_of_a_handler(Triggers):
+    """A handler has one timer: a new one takes the place of the one before."""
+
+    def _start(self, timer: Timer) -> None:
+        assert isinstance(timer, Trigger)
+        with self._changed:
+            for one in list(self._waiting.values()):
+                if isinstance(one, Trigger) and one.handler is timer.handler:
+                    del self._waiting[one.number]
+        super()._start(timer)
+
+
+@breaks("R-10.3.1-20", clauses=TRIGGERED, also=(*_QUEUED, "R-10.3.1-22"))
+class triggers_in_the_order_of_calls(Triggers):
+    """Timers trigger in the order in which they were made."""
+
+    def _next(self) -> Timer | None:
+        with self._changed:
+            first = min(self._waiting, default=None)
+            if first is not None:
+                for timer in list(self._waiting.values()):
+                    if timer.due < self._waiting[first].due:
+                        self._waiting[timer.number] = replace(timer, due=self._waiting[first].due)
+        return super()._next()
+
+
+# protection
+
+
+@breaks("R-10.3.1-36", clauses=TRIGGERED, also=("R-10.3.1-18",))
+class triggers_beside_other_executions(Base):
+    """A trigger enters a protected component that is executed."""
+
+    def _execute_callback(self, member: Member, work: Callable[[], None]) -> None:
+        work()
+
+
+@breaks("R-10.3.1-36", clauses=TRIGGERED, also=MISSING_TRIGGERS)
+class drops_triggers_of_busy_components(Base):
+    """A trigger is dropped if its component is executed."""
+
+    def _trigger(self, member: Member, triggers: Triggers, timer: Timer) -> None:
+        if member.execution.thread_inside is None:
+            super()._trigger(member, triggers, timer)
+        else:
+            triggers.take(timer)
+
+
+@breaks("R-10.3.1-36", clauses=TRIGGERED, also=("R-10.3.1-18", "R-10.3.1-34"))
+class triggers_beside_triggers(Base):
+    """Two timers of one component trigger at once, each on a thread of its own."""
+
+    def _trigger(self, member: Member, triggers: Triggers, timer: Timer) -> None:
+        assert isinstance(timer, Trigger)
+        if triggers.take(timer):
+            told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
+            ended = triggers.trigger.ended
+
+            def enter() -> None:
+                if not ended.is_set():
+                    timer.handler.on_trigger(*told)  # type: ignore[arg-type]
+
+            threading.Thread(target=enter, daemon=True).start()

@@ -1,0 +1,284 @@
+"""Scenarios of object timers (10.3.1): single and repeated triggers, handlers, what timers tell, cancels, phases, and protection."""
+
+from __future__ import annotations
+
+import functools
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.derived import timer_steps
+from ucm_cts.harness.purposes.derived.object_timer_steps import (
+    ASKS,
+    FIRST,
+    SCHEDULES,
+    SECOND,
+    THIRD,
+    identified,
+    made,
+    once,
+    own,
+    repeated,
+    scheduling,
+)
+from ucm_cts.harness.purposes.derived.timer_steps import (
+    OTHER_PORT,
+    PORT,
+    TIMERS,
+    after,
+    alone,
+    sporadic,
+    tell,
+    together,
+)
+from ucm_cts.harness.purposes.scripts import TestPurpose
+
+_INSIDE = "inside"
+_SELF, _ACTIVE = Policy(s.SELF_EXECUTING), Policy(s.ACTIVE, PORT)
+_PASSIVE, _UNPROTECTED = Policy(s.PROTECTED_PASSIVE), Policy(s.UNPROTECTED_PASSIVE)
+_HOLDS = (s.HoldAtGate(_INSIDE),)
+
+_about = functools.partial(timer_steps.purposes_about, kind="object")
+
+
+def object_timer_purposes() -> list[TestPurpose]:
+    """All purposes of 10.3.1."""
+    return [
+        _support(),
+        _once(),
+        _several(),
+        _repeated(),
+        _handlers(),
+        _asked(),
+        _cancel(),
+        _instances(),
+        _phases(),
+        _startup(),
+        _protection(),
+        _missed(),
+        _unusual(),
+        _told(),
+        _in_triggers(),
+    ]
+
+
+def _support() -> TestPurpose:
+    """Each execution policy with object timers; a component without; index timers beside; a second policy; all methods."""
+    orders = (*identified(once(0.2, 1)), repeated(0.2, 0.2, 2, 1, SECOND))
+    cases = [
+        (policy.definition, alone(scheduling(*orders, policies=(policy, SCHEDULES)), tell(1), after(0.4)))
+        for policy in (_SELF, _ACTIVE, _PASSIVE, _UNPROTECTED)
+    ]
+    plain = {"plain": Declaration((PORT,)), "timed": scheduling(once(0.2, 1))}
+    cases.append(("beside a component without", together(plain, tell(1, "timed"), tell(1, "plain"), after(0.2))))
+    kinds = scheduling(once(0.3, 1), sporadic(5, 1, 1), policies=(SCHEDULES, TIMERS), on_trigger=())
+    cases.append(("both kinds", alone(kinds, tell(1), after(1))))
+    other = Policy(s.OBJECT_TIMERS, element="other.timer_scheduler")
+    both = (once(0.3, 1), once(0.6, 1, SECOND, "other.timer_scheduler"))
+    cases.append(("two policies", alone(scheduling(*both, policies=(SCHEDULES, other)), tell(1), after(0.6))))
+    return _about("support", "01 16 17 .10", *cases)
+
+
+def _once() -> TestPurpose:
+    """One trigger, and then none for three delays; delays with microseconds, and of more than a second."""
+    quiet = (tell(1), after(1.4))
+    cases = [("one", alone(scheduling(*identified(once(0.4, 1))), *quiet))]
+    again = (tell(1), after(0.3), tell(1), after(0.3))
+    cases.append(("again when it has come", alone(scheduling(once(0.3, 1), on_trigger=()), *again)))
+    delays = scheduling(once(0.250001, 1), once(1.2, 1, SECOND), once(0.5005, 1, THIRD))
+    cases.append(("delays", alone(delays, s.Pause(300), tell(1), after(1.2))))
+    return _about("once", "01 18 19 20", *cases)
+
+
+def _several() -> TestPurpose:
+    """Five timers in another order than their calls, on three handlers, and dozens on one."""
+    delays = ((0.9, FIRST), (0.3, SECOND), (1.2, THIRD), (0.6, FIRST), (0.15, SECOND))
+    orders = identified(*(once(delay, 1, handler) for delay, handler in delays))
+    cases = [("five", alone(scheduling(*orders, repeated(0.45, 0.3, 2, 1, THIRD)), tell(1), after(1.2)))]
+    many = identified(*(once(0.2 + 0.05 * (number % 7), 1) for number in range(24)))
+    others = {"second": scheduling(*identified(once(0.4, 1)))}
+    cases.append(
+        ("dozens", together({"many": scheduling(*many), **others}, tell(1, "many"), tell(1, "second"), after(0.6)))
+    )
+    return _about("several", "19 20 25 26 28 34", *cases)
+
+
+def _repeated() -> TestPurpose:
+    """Start delays and intervals that differ, one, two and five rounds, and a long series."""
+    rounds = (repeated(0.5, 0.2, 5, 1), repeated(0.2, 0.5, 2, 1, SECOND), repeated(0.3, 0.4, 1, 1, THIRD))
+    cases = [("rounds", alone(scheduling(*rounds), tell(1), after(2.2)))]
+    series = (tell(1), after(6.8))
+    cases.append(("thirty", alone(scheduling(repeated(0.3, 0.2, 30, 1), on_trigger=()), *series)))
+    return _about("repeated", "20 21 22 23 24 30", *cases)
+
+
+def _handlers() -> TestPurpose:
+    """Three timers on one handler and one on another; two handlers in turn."""
+    three = identified(once(0.2, 1), once(0.4, 1), once(0.6, 1), once(0.3, 1, SECOND))
+    cases = [("three and one", alone(scheduling(*three), tell(1), after(0.6)))]
+    turns = identified(once(0.2, 1, SECOND), once(0.4, 1), once(0.6, 1, SECOND), once(0.8, 1, THIRD))
+    cases.append(("in turn", alone(scheduling(*turns), tell(1), after(0.8))))
+    beside = (*identified(once(0.7, 1)), repeated(0.2, 0.3, 3, 1))
+    cases.append(("single and repeated", alone(scheduling(*beside), tell(1), after(0.9))))
+    return _about("handlers", "25 26 28 29", *cases)
+
+
+def _asked() -> TestPurpose:
+    """Identifier, rounds and is_cancelled before, in and after the trigger."""
+    asks = (made(s.TIMER_ID, 1, 2), made(s.TIMER_ROUNDS, 1, 2), made(s.IS_CANCELLED, 1, 2))
+    body = scheduling(once(0.3, 1), *asks, made(s.CANCEL, 1, 3))
+    cases = [("single", alone(body, tell(1), tell(2), after(0.3), tell(2), tell(3), tell(2)))]
+    handed = tuple(
+        s.CallMethod(own_call.port, own_call.method, given=2, on=s.TimerFrom(s.ON_TRIGGER, 1)) for own_call in ASKS
+    )
+    later = scheduling(repeated(0.2, 0.3, 4, 1), *handed)
+    cases.append(("repeated", alone(later, tell(1), after(0.1), tell(2), after(0.7), tell(2))))
+    return _about("asked", "01 24 29 30 33", *cases)
+
+
+def _cancel() -> TestPurpose:
+    """Before expiry, in the own handler, one of three, twice, too late, and while the component is busy."""
+    before = scheduling(*identified(once(0.4, 1)), made(s.IS_CANCELLED, 1, 3), made(s.CANCEL, 1, 2))
+    cases = [("before expiry", alone(before, tell(1), tell(3), tell(2), tell(3), after(1.3), tell(3)))]
+    ends = scheduling(repeated(0.2, 0.3, 5, 1), on_trigger=(*ASKS, own(s.CANCEL)))
+    cases.append(("in its handler", alone(ends, tell(1), after(1.2))))
+    three = (*identified(once(0.4, 1), once(0.5, 1), once(0.6, 1)), made(s.CANCEL, 2, 2), made(s.IS_CANCELLED, 1, 2))
+    cases.append(("one of three", alone(scheduling(*three), tell(1), s.Pause(100), tell(2), after(0.6))))
+    rest = (made(s.CANCEL, 1, 2), made(s.IS_CANCELLED, 1, 2), made(s.IS_CANCELLED, 2, 2))
+    orders = (once(0.3, 1), repeated(0.4, 0.3, 3, 1, SECOND), once(0.9, 1, THIRD), *rest)
+    cases.append(("beside others", alone(scheduling(*orders), tell(1), tell(2), after(1.2))))
+    twice = scheduling(once(0.3, 1), once(0.5, 1, SECOND), made(s.CANCEL, 1, 2), made(s.IS_CANCELLED, 1, 3))
+    cases.append(("twice", alone(twice, *map(tell, (1, 2, 3, 2, 3)), after(0.5))))
+    late = scheduling(once(0.2, 1), made(s.CANCEL, 1, 2), made(s.IS_CANCELLED, 1, 3), once(0.3, 4, SECOND))
+    cases.append(("too late", alone(late, tell(1), after(0.2), *map(tell, (3, 2, 3, 4)), after(0.3))))
+    last = scheduling(once(0.5, 1), made(s.CANCEL, 1, 2))
+    cases.append(("just before it is due", alone(last, tell(1), s.Pause(430), tell(2), after(0.4))))
+    held = scheduling(once(0.3, 1), *_HOLDS, made(s.CANCEL, 1, 1), policies=(_PASSIVE, SCHEDULES))
+    waits = (
+        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE)),
+        *(s.Join("holder"), after(0.1)),
+    )
+    cases.append(("of one that waits for its component", alone(held, *waits)))
+    handed = s.CallMethod(ASKS[0].port, s.CANCEL, given=2, on=s.TimerFrom(s.ON_TRIGGER, 2))
+    stopped = scheduling(repeated(0.2, 0.3, 6, 1), repeated(0.3, 0.3, 3, 1, SECOND), handed)
+    cases.append(("of a repeated one by another call", alone(stopped, tell(1), s.Pause(400), tell(2), after(1.2))))
+    returned = scheduling(
+        repeated(0.4, 0.3, 3, 1),
+        s.CallMethod(ASKS[0].port, s.CANCEL, given=2, on=s.TimerFrom(s.SCHEDULE_REPEATED, 1)),
+    )
+    cases.append(("of a repeated one that came back", alone(returned, tell(1), tell(2), after(1.1))))
+    return _about("cancel", "31 32 33", *cases)
+
+
+def _instances() -> TestPurpose:
+    """Timers of two instances of one implementation, in one container and in two, of which one stops."""
+    same = scheduling(*identified(once(0.4, 1)), repeated(0.2, 0.3, 3, 1, SECOND), made(s.CANCEL, 1, 2))
+    names = {"one": same, "other": same}
+    cases = [("one cancels", together(names, tell(1, "other"), tell(1, "one"), tell(2, "one"), after(0.9)))]
+    below = (
+        *(s.CreateContainer("below"), s.AddComponent("timed"), s.AddComponent("timed", "below", bind="second")),
+        *(s.GetPortElement("timed", PORT, "tell"), s.GetPortElement("second", PORT, "tell second", "below")),
+        *(s.Start(), s.Start("below"), tell(1), tell(1, "second"), s.Pause(300), s.Stop("below"), after(0.6), s.Stop()),
+    )
+    cases.append(("another container stops", Scenario({"timed": same}, below, 4000)))
+    return _about("instances", "18 23 32 34 35", *cases)
+
+
+def _phases() -> TestPurpose:
+    """Timers wait when their component is stopped, removed or started again."""
+    body = scheduling(once(0.4, 1), repeated(0.3, 0.2, 9, 1, SECOND), once(0.2, 2, THIRD))
+    pending = (tell(1), s.Pause(100), s.Stop())
+    cases = [("stop", alone(body, *pending, after(0.8), s.Start(), tell(2), after(0.2)))]
+    cases.append(("restart at once", alone(body, *pending, s.Start(), tell(2), after(0.9))))
+    cases.append(("removal", alone(body, *pending, s.RemoveComponent("timed"), after(0.8))))
+    inner = (
+        *(s.CreateContainer("inner"), s.AddComponent("timed", "inner")),
+        *(s.GetPortElement("timed", PORT, "tell", "inner"), s.Start("inner"), tell(1), s.Pause(100)),
+        *(s.RemoveContainer("inner"), after(0.8)),
+    )
+    cases.append(("removal of the container", Scenario({"timed": body}, inner, 4000)))
+    running = (tell(1), s.Pause(600), s.Stop(), after(0.5), s.Start(), tell(2), after(0.3))
+    cases.append(("stop of one that repeats", alone(body, *running)))
+    return _about("phases", "31 35", *cases)
+
+
+def _startup() -> TestPurpose:
+    """Timers are made in on_startup, which may last longer than they do."""
+    cases = [("returns at once", alone(scheduling(plan={"on_startup": (once(0.3),)}), after(0.3)))]
+    ended = scheduling(plan={"on_startup": (once(0.3), made(s.CANCEL))})
+    cases.append(("cancels", alone(ended, after(0.4))))
+    lasting = scheduling(plan={"on_startup": (once(0.3), *_HOLDS)})
+    steps = (
+        *(s.AddComponent("timed"), s.Start(thread="starter"), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE)),
+        *(s.Join("starter"), after(0.1), s.Stop()),
+    )
+    cases.append(("lasts longer", Scenario({"timed": lasting}, steps, 4000)))
+    return _about("in on_startup", "17 35", *cases)
+
+
+def _protection() -> TestPurpose:
+    """A timer expires while its component is executed: by a call, by itself, or by another trigger."""
+    cases = []
+    for policy in (_PASSIVE, _ACTIVE, _UNPROTECTED):
+        held = scheduling(once(0.3, 1), *_HOLDS, policies=(policy, SCHEDULES))
+        steps: tuple[Step, ...] = (
+            *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE)),
+            *(s.Join("holder"), after(0)),
+        )
+        cases.append((f"during a call, {policy.definition}", alone(held, *steps)))
+    running = scheduling(policies=(_SELF, SCHEDULES), plan={"on_startup": (once(0.3),), "run": _HOLDS})
+    run = (s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE), s.Pause(200))
+    cases.append(("during run", alone(running, *run)))
+    for policy, port in ((_PASSIVE, PORT), (_ACTIVE, PORT), (_ACTIVE, OTHER_PORT)):
+        calling = scheduling(once(0.3, 1), policies=(policy, SCHEDULES), on_trigger=_HOLDS)
+        steps = (
+            *(s.GetPortElement("timed", port, "api"), tell(1), s.ReachGate(_INSIDE)),
+            *(s.Invoke("api", 9, thread="caller"), s.Settle("caller"), s.Pause(50), s.OpenGate(_INSIDE)),
+            s.Join("caller"),
+        )
+        cases.append((f"a call during a trigger, {policy.definition}, {port}", alone(calling, *steps)))
+    two = scheduling(once(0.2, 1), once(0.5, 1, SECOND), policies=(_PASSIVE, SCHEDULES), on_trigger=_HOLDS)
+    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE), after(0))
+    cases.append(("during another trigger", alone(two, *steps)))
+    kinds = scheduling(once(0.5, 1), sporadic(5, 1, 1), policies=(_PASSIVE, SCHEDULES, TIMERS), on_trigger=_HOLDS)
+    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(900), s.OpenGate(_INSIDE), after(0))
+    cases.append(("during a trigger, an index timer", alone(kinds, *steps)))
+    return _about("protection", "36", *cases)
+
+
+def _missed() -> TestPurpose:
+    """A trigger lasts for more than two intervals."""
+    held = scheduling(repeated(0.4, 0.8, 9, 1), policies=(_PASSIVE, SCHEDULES), on_trigger=_HOLDS)
+    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(2000), s.OpenGate(_INSIDE), after(1.6))
+    return _about("long triggers", "22", ("one", alone(held, *steps)))
+
+
+def _unusual() -> TestPurpose:
+    """No delay, and no rounds."""
+    cases = [("no delay", alone(scheduling(once(0, 1), once(0.3, 1, SECOND)), tell(1), after(0.3)))]
+    start = scheduling(repeated(0, 0.3, 3, 1))
+    cases.append(("no delay, and an interval", alone(start, tell(1), after(0.6))))
+    none = scheduling(repeated(0.2, 0.2, 0, 1), once(0.3, 1, SECOND))
+    cases.append(("no rounds", alone(none, tell(1), after(1.2))))
+    return _about("unusual times", "19 23", *cases)
+
+
+def _told() -> TestPurpose:
+    """What triggers tell: single and repeated ones of different length, and one that had to wait for its component."""
+    body = scheduling(once(0.7, 1), repeated(0.3, 0.5, 3, 1, SECOND))
+    cases = [("at once", alone(body, s.Pause(400), tell(1), after(1.3)))]
+    held = scheduling(once(0.3, 1), *_HOLDS, policies=(_PASSIVE, SCHEDULES))
+    steps = (
+        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(900), s.OpenGate(_INSIDE)),
+        *(s.Join("holder"), after(0)),
+    )
+    cases.append(("after waiting", alone(held, *steps)))
+    return _about("times told", "24 27", *cases)
+
+
+def _in_triggers() -> TestPurpose:
+    """Timers are made and cancelled inside triggers."""
+    chain = scheduling(once(0.2, 1), on_trigger=(*ASKS, repeated(0.2, 0.2, 2, handler=THIRD)))
+    cases = [("one makes others", alone(chain, tell(1), after(0.3)))]
+    other = scheduling(once(0.5, 1, SECOND), once(0.2, 1), on_trigger=(made(s.CANCEL), made(s.IS_CANCELLED)))
+    cases.append(("one cancels another", alone(other, tell(1), after(0.6))))
+    return _about("in triggers", "01 31 33", *cases)

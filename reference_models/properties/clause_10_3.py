@@ -1,0 +1,112 @@
+"""Properties about timers of both kinds: components with them are added and started, and no others get their service (10.3)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration
+from ucm_cts.adapters.contract.trace import Raise
+from ucm_cts.reference_models.conclusions import Conclusions, takes
+from ucm_cts.reference_models.model import execution_policies as policies
+from ucm_cts.reference_models.model.callback_history import Callback
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation import OperationInProgress
+from ucm_cts.reference_models.model.runtime import Member, has_meaningless_values, raises
+from ucm_cts.reference_models.model.service_policies import has_several_clocks, has_timers, policies_of, policy_elements
+from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback
+from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+_WORDS = {s.INDEX_TIMERS: "index timers", s.OBJECT_TIMERS: "object timers"}
+_SUPPORTED = {s.INDEX_TIMERS: "R-10.3.2-19", s.OBJECT_TIMERS: "R-10.3.1-16"}
+_SEVERAL = {s.INDEX_TIMERS: "R-10.3-09", s.OBJECT_TIMERS: "R-10.3-10"}
+_NOT_WITHOUT = {s.INDEX_TIMERS: "R-10.3.2-24", s.OBJECT_TIMERS: "R-10.3.1-17"}
+
+
+@property_at("ended", *_SUPPORTED.values(), *_SEVERAL.values(), at=("add_component", "start"), feature="timers")
+def timers_supported(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
+    """A component with timers is added and started; one with two policies of one definition may be refused."""
+    if isinstance(ongoing.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(ongoing.step.component)
+        if not isinstance(ongoing.end, Raise) or declaration is None or ongoing.container.started is not False:
+            return
+        if not has_meaningless_values(declaration, ongoing.step):
+            yield from _refused(check, runtime, declaration, "add_component", ongoing.end)
+        return
+    for member in ongoing.container.live_members():
+        if not has_timers(member.declaration):
+            continue
+        if isinstance(ongoing.end, Raise):
+            if len(ongoing.container.live_members()) == 1 and member.connected:
+                yield from _refused(check, runtime, member.declaration, "start", ongoing.end)
+        elif ongoing.judged and "on_startup" in [c.hook for c in ongoing.by_body.get(member.body, ())]:
+            yield from _started(check, runtime, ongoing, member)
+
+
+def _started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, member: Member) -> Conclusions:
+    for definition, words in _WORDS.items():
+        policies = policies_of(member.declaration, definition)
+        if len(policies) == 1:
+            yield check.kept(_SUPPORTED[definition])
+            others = ongoing.container.live_members()
+            has_both = len(policies_of(member.declaration, *_WORDS)) == len(_WORDS)
+            if has_both or any(not has_timers(other.declaration, definition) for other in others):
+                yield check.kept(_SEVERAL[definition])
+        elif policies and not (yield from takes(runtime, "second-timer-policy", "separate")):
+            yield check.fail(
+                "second policy",
+                expected=f"'{member.lane}', which has two policies for {words}, is refused, as declared",
+                observed="start returned",
+                event=ongoing.end,
+                requirement=_SEVERAL[definition],
+            )
+
+
+def _refused(
+    check: Property, runtime: ObservedRuntime, declaration: Declaration, operation: str, end: Raise
+) -> Conclusions:
+    timers = {one: policies_of(declaration, one) for one in _WORDS if has_timers(declaration, one)}
+    others = policies_of(declaration, s.COMPONENT_TRACE, s.PORT_TRACE)
+    excused = others or has_several_clocks(declaration) or policies.is_contradictory(declaration)
+    excused = excused or policies.extended_policy(declaration) is not None or policies.has_unknown_policy(declaration)
+    if not timers or excused or raises(declaration, "on_init", "on_startup", "set_container_interface"):
+        return
+    twice = [one for one, policies in timers.items() if len(policies) > 1]
+    if twice:
+        if not (yield from takes(runtime, "second-timer-policy", "refused")):
+            expected = f"a component with two policies for {_WORDS[twice[0]]} is added and started, as declared"
+            requirement = _SEVERAL[twice[0]]
+            yield check.refused(operation, end, expected=expected, cause="second policy", requirement=requirement)
+        return
+    *_, last = timers
+    requirement = _SUPPORTED[last] if len(timers) == 1 else _SEVERAL[last]
+    expected = f"a component with {' and '.join(_WORDS[one] for one in timers)} is added and started"
+    yield check.refused(operation, end, expected=expected, requirement=requirement)
+
+
+@property_at("entered", *_NOT_WITHOUT.values(), at=("on_startup",), feature="timers")
+def no_timers_without_policy(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
+    """on_startup hands over no reference of a timer service to a component without its policy."""
+    event, member, ongoing, _ = callback
+    if member is None or member.operational:
+        return
+    given = {d.port for d in event.dependencies or () if any(r is not None for r in d.references)}
+    for definition, words in _WORDS.items():
+        of_others = {e for d in runtime.scenario.components.values() for e in policy_elements(d, definition)}
+        if has_timers(member.declaration, definition) or not of_others:
+            continue
+        own = {*member.declaration.requires, *policy_elements(member.declaration, *_WORDS)}
+        wrong = sorted(of_others & given - own)
+        if not wrong:
+            yield check.kept(_NOT_WITHOUT[definition])
+            continue
+        yield check.fail(
+            "without policy",
+            expected=f"'{member.lane}', which has no {words}, is handed no reference for {wrong[0]}",
+            observed="it was handed one",
+            during=(ongoing, event),
+            requirement=_NOT_WITHOUT[definition],
+        )
+
+
+def at_of(timer: Timer, *callbacks: TimerCallback) -> tuple[int, ...]:
+    """The events of a finding: how the timer was started, and its callbacks."""
+    return (timer.call.request.n, *(c.n for c in callbacks))

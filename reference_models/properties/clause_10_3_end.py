@@ -1,0 +1,168 @@
+"""Properties about how timers end: they are cancelled, or their component is stopped (10.3)."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.reference_models.conclusions import Conclusions, takes
+from ucm_cts.reference_models.model.index_timers import is_callback
+from ucm_cts.reference_models.model.method_calls import MethodCall
+from ucm_cts.reference_models.model.object_timers import is_trigger
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.paced_phases import lateness
+from ucm_cts.reference_models.model.phases import is_outside
+from ucm_cts.reference_models.model.service_policies import has_timers
+from ucm_cts.reference_models.model.timer_events import Kind, Timer, TimerPhase
+from ucm_cts.reference_models.model.timer_times import earliest, free_after, latest
+from ucm_cts.reference_models.model.timers import all_timer_phases
+from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+_CANCELS: dict[Kind, str] = {"index": "R-10.3.2-38", "object": "R-10.3.1-31"}
+_PHASES: dict[Kind, str] = {"index": "R-10.3.2-42", "object": "R-10.3.1-35"}
+
+DueAnswer = bool | Literal["open", "unknown"]
+
+
+@property_at("closed", *_CANCELS.values(), feature="timers", timed=True)
+def cancelled_timers_are_silent(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A cancelled timer calls back no more, but for a callback that was due before the cancel returned, where that is tolerated."""
+    for phase in all_timer_phases(runtime):
+        for timer in phase.timers:
+            cancel = timer.cancelled
+            if cancel is None or cancel.reply is None or timer.is_contested or cancel.reply.failed:
+                continue
+            later = [c for c in timer.callbacks if c.n > cancel.reply.n]
+            wrong = [c for c in later if not _is_tolerated(runtime, phase, timer, cancel, timer.callbacks.index(c))]
+            if len(later) > 1 or wrong:
+                yield check.fail(
+                    "calls back",
+                    expected=f"{timer.label} of '{phase.member.lane}' calls back no more once it is cancelled",
+                    observed=f"it called back {'once' if len(later) == 1 else f'{len(later)} times'} after {cancel.request.method} had returned",
+                    at=(timer.call.request.n, cancel.reply.n, *(c.n for c in later)),
+                    requirement=_CANCELS[timer.kind],
+                )
+            elif _would_have_come(runtime, timer, cancel):
+                yield check.kept(_CANCELS[timer.kind])
+
+
+def _is_tolerated(runtime: ObservedRuntime, phase: TimerPhase, timer: Timer, cancel: MethodCall, number: int) -> bool:
+    assert cancel.reply is not None
+    if runtime.ics.reading("timer-cancel") == "strict" or _is_from_own_callback(timer, cancel):
+        return False
+    due = earliest(runtime, timer, number)
+    if due is None or due > cancel.reply.t:
+        return due is None
+    callback = timer.callbacks[number]
+    free = free_after(runtime, timer, cancel.reply.t, callback.t)
+    return free is None or callback.t <= free + lateness(runtime)
+
+
+def _is_from_own_callback(timer: Timer, cancel: MethodCall) -> bool:
+    caller = cancel.business.caller
+    return caller is not None and any(caller.enter is callback.enter for callback in timer.callbacks)
+
+
+def _would_have_come(runtime: ObservedRuntime, timer: Timer, cancel: MethodCall) -> bool:
+    """Would its next callback have been due after it was cancelled, and before its phase ended?"""
+    next_due = latest(runtime, timer, sum(c.n < cancel.request.n for c in timer.callbacks))
+    ends = timer.again.request.t if timer.again is not None else timer.phase.of.ended_at
+    return next_due is not None and cancel.request.t < next_due < ends
+
+
+def answer_of(runtime: ObservedRuntime, timer: Timer, call: MethodCall) -> DueAnswer:
+    """What the question ``call`` about ``timer``, whether it was cancelled, has to be answered; ``open`` if the text leaves it to the vendor,
+    ``unknown`` if that depends on what cannot be seen.
+    """
+    before = [c for c in timer.cancels if c.request.n < call.request.n]
+    if not before:
+        if not timer.waits(call.request.n):
+            return "open"
+        come = len([c for c in timer.callbacks if c.n < call.request.n])
+        due = earliest(runtime, timer, come)
+        is_sure = timer.rate is not None and (timer.most is None or come + 1 < timer.most)
+        is_sure = is_sure or (due is not None and call.reply is not None and call.reply.t < due)
+        return False if is_sure else "unknown"
+    cancel = timer.cancelled
+    if cancel is None:
+        return "open"
+    due = earliest(runtime, timer, len([c for c in timer.callbacks if c.n < cancel.request.n]))
+    while_waiting = cancel.reply is not None and not cancel.reply.failed and due is not None and cancel.reply.t < due
+    return True if while_waiting and cancel.over < call.request.n else "unknown"
+
+
+def due_shown(runtime: ObservedRuntime, due: DueAnswer) -> str:
+    """Such an answer for people."""
+    if isinstance(due, bool):
+        return str(due).lower()
+    declared = runtime.ics.reading("is-cancelled")
+    shown = {"inactive": "true", "cancelled": "false"}.get(declared)
+    return f"{shown}, as is-cancelled={declared} declares" if shown and due == "open" else "a boolean"
+
+
+@property_at("closed", *_PHASES.values(), feature="timers", timed=True)
+def timers_serve_operational_components(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """No callback enters a component before its on_startup returned, or after its stop or removal did."""
+    for member in list(runtime.bodies.values()):
+        if not has_timers(member.declaration) or member.suspended:
+            continue
+        executions = runtime.executions.of(member.body)
+        entered = [(e, "index") for e in executions if is_callback(e)]
+        entered += [(e, "object") for e in executions if is_trigger(e, member)]
+        found = ((e, kind) for e, kind in entered if is_outside(runtime, member, e.enter.n))
+        outside, kind = next(found, (None, ""))
+        if outside is not None:
+            yield check.fail(
+                "not operational",
+                expected=f"'{member.lane}' is called back after its on_startup returned and before stop returned",
+                observed="it was called back outside of that",
+                at=(outside.enter.n,),
+                requirement=_PHASES["index" if kind == "index" else "object"],
+            )
+
+
+@property_at("closed", *_PHASES.values(), feature="timers", timed=True)
+def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A timer that waits at stop does not call back while its component is stopped; afterwards it does if that is declared."""
+    phases = all_timer_phases(runtime)
+    for phase in phases:
+        plain = [t for t in phase.timers if t.is_started and not t.is_contested and t.call.request.n < phase.of.until]
+        waiting = [t for t in plain if t.waits(phase.of.until)]
+        dues = [due for t in waiting if (due := latest(runtime, t, len(t.callbacks))) is not None]
+        own = (p for p in phases if p.member is phase.member and p.kind == phase.kind)
+        following = [p for p in own if p.of.number > phase.of.number]
+        paused = [p.t for p in runtime.interactions.pauses if phase.of.closed < p.n]
+        paused = [t for t in paused if not following or t < following[0].of.startup.t]
+        if paused and any(phase.of.ended_at < due < paused[-1] for due in dues):
+            yield check.kept(_PHASES[phase.kind])
+        if following:
+            yield from _after_restart(check, runtime, phase, following[0], waiting)
+
+
+def _after_restart(
+    check: Property, runtime: ObservedRuntime, phase: TimerPhase, later: TimerPhase, waiting: list[Timer]
+) -> Conclusions:
+    waiting = [timer for timer in waiting if not _is_touched(timer, later)]
+    resumed = [c for c in later.resumed if c.timer in waiting]
+    dues = [due for t in waiting if (due := latest(runtime, t, len(t.callbacks))) is not None]
+    is_over = any(max(due, later.of.started.t + lateness(runtime)) < later.of.ended_at for due in dues)
+    if not resumed and not is_over:
+        return
+    value = "resumed" if resumed else "dropped"
+    if not (yield from takes(runtime, "timers-at-stop", value)):
+        declared = "call back after the restart" if value == "dropped" else "are dropped"
+        yield check.fail(
+            value,
+            expected=f"timers of '{phase.member.lane}' that wait when it is stopped {declared}, as declared",
+            observed="one called back" if resumed else "none called back",
+            at=(waiting[0].call.request.n, phase.of.until, *(c.n for c in resumed)),
+            requirement=_PHASES[phase.kind],
+        )
+
+
+def _is_touched(timer: Timer, later: TimerPhase) -> bool:
+    """Did a call of the later phase name its number, or cancel it, or schedule its handler anew?"""
+    if timer.kind == "index":
+        calls = (call for call in later.calls if call.request.method != s.IS_CANCELED)
+        return any((call.request.arguments or (None,))[0] == timer.number for call in calls)
+    return any(t.handler == timer.handler for t in later.timers) or any(c in timer.cancels for c in later.calls)
