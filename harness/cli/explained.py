@@ -12,6 +12,7 @@ from typing import get_args
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.requirements import (
+    CLAIMABLE,
     Requirement,
     load_capabilities,
     load_life_cycle,
@@ -102,7 +103,10 @@ def _of_operation(name: str) -> Topic:
 
 
 def _concerned(name: str) -> set[str]:
-    """The requirements that mention ``name``, need it to be claimed, or are broken by what it may not do."""
+    """The requirements that mention ``name``, need it to be claimed, or are broken by what it may not do.
+
+    Those of a part of 10.2 to 10.5 name it themselves.
+    """
     concerned = {DECLARED.get(name, "")}
     concerned |= {
         id_ for row in load_life_cycle().rows if row.operation == name for id_ in (row.requirement, row.missing)
@@ -110,7 +114,8 @@ def _concerned(name: str) -> set[str]:
     concerned |= {id_ for one in load_dimensions().entrances for id_ in one.exercises if name in (one.hook, one.by)}
     for r in load_requirements():
         needed = {each for need in load_capabilities().of(r.id) for each in (*need.needs, *need.one_of)}
-        if name in needed or _mentioning(name).search(f"{r.title} {r.meaning} {r.observed}"):
+        is_mentioned = name not in CLAIMABLE and _mentioning(name).search(f"{r.title} {r.meaning} {r.observed}")
+        if name in needed or is_mentioned:
             concerned.add(r.id)
     return concerned
 

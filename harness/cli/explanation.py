@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
+from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PARTS, PROFILES
 from ucm_cts.harness.catalogue.requirements import (
     Need,
     Requirement,
@@ -35,7 +35,7 @@ def _explained(requirement: Requirement) -> RenderableType:
     interpretations = {i.id: i for i in load_interpretations()}
     lines: list[RenderableType] = [
         Text(f"{requirement.id}  {requirement.title}", style="bold"),
-        Text(f"clause {requirement.clause}, {requirement.force}, profile {requirement.profile}"),
+        Text(f"clause {requirement.clause}, {requirement.force}, {_profiles(requirement.profile)}"),
         Text(),
         Text(requirement.meaning),
     ]
@@ -73,6 +73,13 @@ def _explained(requirement: Requirement) -> RenderableType:
         models = [f"{q.due} {q.name}{f': {q.because}' if q.because else ''}" for q in cases]
         lines += _paragraph("Models that ask about it:", "", *models)
     return Group(*lines)
+
+
+def _profiles(family: str) -> str:
+    """The first profile that asks for requirements of ``family``; all of them if it is what several have in common."""
+    if family in PROFILES:
+        return f"profile {family}"
+    return f"profiles {', '.join(profile for profile in PROFILES if family in PARTS[profile])}"
 
 
 def _paragraph(label: str, text: str, *lines: str) -> list[Text]:
