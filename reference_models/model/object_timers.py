@@ -126,7 +126,9 @@ class _Reading:
         """
         if callback.id is not None:
             others = [t for t in self.timers if t.handler != callback.enter.port and t.phase is timers[-1].phase]
-            is_ever = self.runtime.ics.reading("timer-ids") == "ever"  # or it may have ended with rounds that were left out
+            is_ever = (
+                self.runtime.ics.reading("timer-ids") == "ever"
+            )  # or it may have ended with rounds that were left out
             others = [t for t in others if t.id == callback.id and t.waits(callback.n) and (is_ever or t.rate is None)]
             if others and all(t.id != callback.id for t in timers):
                 callback.stranger = others[0]
