@@ -57,7 +57,7 @@ def _no_rounds(check: Property, runtime: ObservedRuntime, timer: Timer) -> Concl
         if not timer.callbacks and (free is None or free + lateness(runtime) > timer.until[1]):
             return
         value = "endless" if timer.callbacks else "none"
-    elif timer.call.reply is not None:
+    elif timer.call.reply is not None and timer.call.reply.n <= timer.phase.of.until:
         value = "refused"
     else:
         return

@@ -193,7 +193,7 @@ def _why_missing(runtime: ObservedRuntime, timer: Timer, number: int, was_busy: 
     others = [t for t in all_timers(runtime) if t is not timer and t.call.request.n < timer.until[0]]
     elsewhere = [t for t in others if _shares_number(t, timer)]
     here = [t for t in others if t.phase is timer.phase]
-    cancelled = [t for t in others if t.kind == timer.kind == "object"] or here
+    cancelled = [*here, *(t for t in others if t.kind == timer.kind == "object" and t.number == timer.number)]
     if any(t.call.request.n > timer.call.request.n or t.cancels for t in elsewhere):
         return _APART
     due = latest(runtime, timer, number) or timer.until[1]

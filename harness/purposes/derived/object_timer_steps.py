@@ -46,10 +46,10 @@ ASKS = (own(s.TIMER_ID), own(s.TIMER_ROUNDS), own(s.IS_CANCELLED))
 """A handler that asks its timer."""
 
 
-def identified(*orders: CallMethod) -> tuple[CallMethod, ...]:
-    """``orders``, each of which makes a timer with one trigger and has to be told the same, and then asks for its identifier."""
+def identified(*orders: CallMethod, before: int = 0) -> tuple[CallMethod, ...]:
+    """``orders``, each of which makes a timer with one trigger, and then asks for its identifier. So many of them were made ``before``."""
     return tuple(
-        one for number, order in enumerate(orders, 1) for one in (order, made(s.TIMER_ID, number, order.given))
+        one for number, order in enumerate(orders, 1 + before) for one in (order, made(s.TIMER_ID, number, order.given))
     )
 
 

@@ -36,6 +36,8 @@ _INSIDE = "inside"
 _SELF, _ACTIVE = Policy(s.SELF_EXECUTING), Policy(s.ACTIVE, PORT)
 _PASSIVE, _UNPROTECTED = Policy(s.PROTECTED_PASSIVE), Policy(s.UNPROTECTED_PASSIVE)
 _HOLDS = (s.HoldAtGate(_INSIDE),)
+_LONG = (2.2, 5, 257, 2148, 4295, 65537, 4294968)
+"""Delays, in seconds, that not every type of times has."""
 
 _about = functools.partial(timer_steps.purposes_about, kind="object")
 
@@ -86,6 +88,10 @@ def _once() -> TestPurpose:
     cases.append(("again when it has come", alone(scheduling(once(0.3, 1), on_trigger=()), *again)))
     delays = scheduling(once(0.250001, 1), once(1.2, 1, SECOND), once(0.5005, 1, THIRD))
     cases.append(("delays", alone(delays, s.Pause(300), tell(1), after(1.2))))
+    others = scheduling(once(0.03, 1), once(1.95, 1, SECOND), repeated(1.3, 0.4, 2, 1, THIRD))
+    cases.append(("small parts of seconds", alone(others, tell(1), after(1.95))))
+    long = identified(*(once(delay, 1) for delay in _LONG))
+    cases.append(("long delays", alone(scheduling(*long), tell(1), after(1))))
     return _about("once", "01 18 19 20", *cases)
 
 
@@ -106,8 +112,12 @@ def _repeated() -> TestPurpose:
     """Start delays and intervals that differ, one, two and five rounds, and a long series."""
     rounds = (repeated(0.5, 0.2, 5, 1), repeated(0.2, 0.5, 2, 1, SECOND), repeated(0.3, 0.4, 1, 1, THIRD))
     cases = [("rounds", alone(scheduling(*rounds), tell(1), after(2.2)))]
-    series = (tell(1), after(6.8))
-    cases.append(("thirty", alone(scheduling(repeated(0.3, 0.2, 30, 1), on_trigger=()), *series)))
+    series = (tell(1), after(6.9))
+    cases.append(("forty", alone(scheduling(repeated(0.3, 0.16, 40, 1), on_trigger=()), *series)))
+    many = scheduling(
+        repeated(0.2, 1.5, 2, 1), repeated(0.2, 0.4, 2**31, 1, SECOND), repeated(0.3, 0.4, 2**32 - 1, 1, THIRD)
+    )
+    cases.append(("long intervals and many rounds", alone(many, tell(1), after(1.8))))
     return _about("repeated", "20 21 22 23 24 30", *cases)
 
 
@@ -174,6 +184,13 @@ def _instances() -> TestPurpose:
     same = scheduling(*identified(once(0.4, 1)), repeated(0.2, 0.3, 3, 1, SECOND), made(s.CANCEL, 1, 2))
     names = {"one": same, "other": same}
     cases = [("one cancels", together(names, tell(1, "other"), tell(1, "one"), tell(2, "one"), after(0.9)))]
+    cases.append(("the other cancels", together(names, tell(1, "one"), tell(1, "other"), tell(2, "other"), after(0.9))))
+    beside = (
+        *(s.CreateContainer("below"), s.AddComponent("timed"), s.AddComponent("timed", "below", bind="second")),
+        *(s.GetPortElement("timed", PORT, "tell"), s.GetPortElement("second", PORT, "tell second", "below")),
+        *(s.Start(), s.Start("below"), tell(1), tell(1, "second"), tell(2), after(0.9), s.Stop("below"), s.Stop()),
+    )
+    cases.append(("in another container", Scenario({"timed": same}, beside, 4000)))
     below = (
         *(s.CreateContainer("below"), s.AddComponent("timed"), s.AddComponent("timed", "below", bind="second")),
         *(s.GetPortElement("timed", PORT, "tell"), s.GetPortElement("second", PORT, "tell second", "below")),
@@ -198,6 +215,10 @@ def _phases() -> TestPurpose:
     cases.append(("removal of the container", Scenario({"timed": body}, inner, 4000)))
     running = (tell(1), s.Pause(600), s.Stop(), after(0.5), s.Start(), tell(2), after(0.3))
     cases.append(("stop of one that repeats", alone(body, *running)))
+    anew = (*identified(once(0.3, 1), once(0.4, 1), once(0.5, 1, SECOND), before=1), made(s.CANCEL, 2, 2))
+    whole = scheduling(once(0.2, 3, SECOND), *anew, repeated(0.2, 0.3, 3, 1, THIRD))
+    again = (tell(3), after(0.2), s.Stop(), s.Start(), tell(1), tell(2), after(0.8))
+    cases.append(("everything after a restart", alone(whole, *again)))
     return _about("phases", "31 35", *cases)
 
 

@@ -10,10 +10,10 @@ from typing import Any
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.programming_model import PortConnection
 from ucm_cts.adapters.mutants.python.extensions import timer_ends
-from ucm_cts.adapters.mutants.python.registry import MISSING_TRIGGERS, TRIGGERED, Base, breaks
+from ucm_cts.adapters.mutants.python.registry import MISSING_TRIGGERS, TRIGGERED, Base, breaks, is_below
 from ucm_cts.adapters.mutants.python.variants.triggered import for_objects, triggers_without_end
 from ucm_cts.adapters.reference.python.members import Member
-from ucm_cts.adapters.reference.python.object_timers import Trigger, Triggers
+from ucm_cts.adapters.reference.python.object_timers import ScheduledTimer, Trigger, Triggers
 from ucm_cts.adapters.reference.python.timers import Timers
 
 _SILENT = ("R-10.3.1-31", "R-10.3.1-33", "R-10.3.1-18", "R-10.3.1-20", "R-10.3.1-23", "R-10.3.1-30")
@@ -218,3 +218,67 @@ class begins_at_the_delay_undeclared(Base):
 @breaks("R-10.3.1-31", clauses=TRIGGERED, readings={"timer-cancel": "strict"}, also=_SILENT)
 class triggers_on_their_way_come_undeclared(for_objects(timer_ends.cancels_what_is_not_on_its_way, "base")):  # type: ignore[misc]
     """A timer that has begun to trigger, and has to wait for its component, is not cancelled, although that is declared."""
+
+
+class _Later(Base):
+    """``_serve_again`` changes what a scheduler does from the second phase of its component on."""
+
+    def _serve_again(self, triggers: Triggers) -> None:
+        raise NotImplementedError
+
+    def _service_element(self, member: Member, policy: s.Policy) -> PortConnection:
+        is_again = bool(member.schedulers)
+        element = super()._service_element(member, policy)
+        if is_again and policy.definition == s.OBJECT_TIMERS:
+            triggers = member.schedulers[-1]
+            assert isinstance(triggers, Triggers)
+            self._serve_again(triggers)
+        return element
+
+
+@breaks("R-10.3.1-31", clauses=TRIGGERED, also=_SILENT)
+class does_not_cancel_after_a_restart(_Later):
+    """After a restart cancel has no effect."""
+
+    def _serve_again(self, triggers: Triggers) -> None:
+        triggers.cancel_timer = lambda number: None  # type: ignore[method-assign]
+
+
+@breaks(
+    "R-10.3.1-28", clauses=TRIGGERED, also=(*_SILENT, *MISSING_TRIGGERS, "R-10.3.1-25", "R-10.3.1-26", "R-10.3.1-29")
+)
+class has_one_identifier_after_a_restart(_Later):
+    """After a restart all timers have one identifier."""
+
+    def _serve_again(self, triggers: Triggers) -> None:
+        triggers.timer_class = type("Same", (ScheduledTimer,), {"id": lambda _: "timer"})
+
+
+@breaks("R-10.3.1-32", clauses=TRIGGERED, also=MISSING_TRIGGERS)
+class repeats_once_after_a_restart(_Later):
+    """After a restart a repeated timer triggers once."""
+
+    def _serve_again(self, triggers: Triggers) -> None:
+        triggers._is_last = lambda timer: True  # type: ignore[method-assign]
+
+
+@breaks("R-10.3.1-23", clauses=TRIGGERED, also=MISSING_TRIGGERS)
+class repeats_once_in_containers_below(Base):
+    """A repeated timer in a container below the manager triggers once."""
+
+    def _service_element(self, member: Member, policy: s.Policy) -> PortConnection:
+        element = super()._service_element(member, policy)
+        if policy.definition == s.OBJECT_TIMERS and is_below(self):
+            member.schedulers[-1]._is_last = lambda timer: True  # type: ignore[attr-defined]
+        return element
+
+
+@breaks("R-10.3.1-31", clauses=TRIGGERED, also=_SILENT)
+class cancels_for_the_first_component_only(Base):
+    """cancel has no effect for the second component that was started, and later ones."""
+
+    def _service_element(self, member: Member, policy: s.Policy) -> PortConnection:
+        element = super()._service_element(member, policy)
+        if policy.definition == s.OBJECT_TIMERS and member.id != self.manager.__dict__.setdefault("first", member.id):
+            member.schedulers[-1].cancel_timer = lambda number: None  # type: ignore[method-assign]
+        return element

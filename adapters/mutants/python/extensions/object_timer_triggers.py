@@ -525,3 +525,38 @@ class triggers_beside_triggers(Base):
                     timer.handler.on_trigger(*told)  # type: ignore[arg-type]
 
             threading.Thread(target=enter, daemon=True).start()
+
+
+family(
+    _Due,
+    "due_after",
+    {
+        "triggers_at_once_below_a_tick": Row(
+            "R-10.3.1-19", "Delays below 50 ms are due at once.", lambda s: s if s >= 0.05 else 0, _EARLY
+        ),
+        "keeps_delays_in_nanoseconds_of_32_bits": Row(
+            "R-10.3.1-19", "Delays are nanoseconds of 32 bits.", lambda s: round(s * 10**9) % 2**32 / 10**9, _EARLY
+        ),
+        "keeps_delays_in_signed_nanoseconds": Row(
+            "R-10.3.1-19", "Delays are nanoseconds of 31 bits.", lambda s: max(0, s if s < 2.147 else 0), _EARLY
+        ),
+        "keeps_delays_in_milliseconds_of_16_bits": Row(
+            "R-10.3.1-19", "Delays are milliseconds of 16 bits.", lambda s: int(s * 1000 + 0.999) % 2**16 / 1000, _EARLY
+        ),
+    },
+    TRIGGERED,
+)
+
+family(
+    _Bounded,
+    "rounds_made",
+    {
+        "keeps_rounds_in_5_bits": Row(
+            "R-10.3.1-23", "A repeated timer has 31 rounds at most.", lambda n: min(n, 31), MISSING_TRIGGERS
+        ),
+        "keeps_rounds_in_31_bits": Row(
+            "R-10.3.1-23", "Rounds are numbers of 31 bits.", lambda n: n if n < 2**31 else 1, MISSING_TRIGGERS
+        ),
+    },
+    TRIGGERED,
+)
