@@ -112,7 +112,7 @@ def test_a_timer_that_is_cancelled_triggers_no_more(builds: Builds) -> None:
 
 def test_a_trigger_may_cancel_its_timer_and_make_others(builds: Builds) -> None:
     in_trigger = (call(s.CANCEL), call(s.IS_CANCELLED), call(s.IS_CANCELLED, s.SCHEDULE_REPEATED, 1), once(10**6))
-    component = timed(repeated(0, 100, 5), startup=(once(300, "k"),), trigger=in_trigger)
+    component = timed(repeated(100, 100, 5), startup=(once(300, "k"),), trigger=in_trigger)
     trace = traced(builds, component, TELL, s.Pause(700), s.Stop())
     assert (rounds(trace), rounds(trace, "k")) == ([1], [1])
     assert [told for _, told in answers(trace, s.CANCEL)] == [None, None]

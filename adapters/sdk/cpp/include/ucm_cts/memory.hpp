@@ -76,9 +76,10 @@ class Memory {
     std::int64_t find(const TimerFrom& of, const Entry& entry, std::shared_ptr<ObjectTimer>& timer) {
         std::lock_guard<std::mutex> lock(mutex_);
         const std::int64_t number = of.nth != 0 ? number_of(of) : entry.method == of.method ? entry.timer : 0;
-        if (number != 0) {
-            timer = timers_[static_cast<std::size_t>(number - 1)].timer;
+        if (number == 0 || static_cast<std::size_t>(number) > timers_.size()) {
+            return 0;  // or a trigger has outlived the scenario
         }
+        timer = timers_[static_cast<std::size_t>(number - 1)].timer;
         return number;
     }
 
