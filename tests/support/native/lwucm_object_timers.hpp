@@ -105,7 +105,7 @@ void none_triggers_after_stop(const std::string& execution, const std::string& o
                 }
             }
         });
-        std::this_thread::sleep_for(std::chrono::microseconds(100 * phase));
+        let_pass(phase, calls);
         alarms.runtime->stop();
         operational = false;
         other.get();
