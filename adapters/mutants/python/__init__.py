@@ -87,7 +87,13 @@ MODULES = {
         *("shared_freezes", "shared_notices", "shared_reads", "shared_writes"),
         *("paced_calls", "paced_parameters", "paced_phases", "paced_runs"),
         *("timer_callbacks", "timer_ends", "timer_expiry", "timer_service"),
-        *("object_timer_ends", "object_timer_service", "object_timer_triggers"),
+        *(
+            "object_timer_answers",
+            "object_timer_ends",
+            "object_timer_service",
+            "object_timer_told",
+            "object_timer_triggers",
+        ),
     ),
     "dimensions": (
         "aftermath",
