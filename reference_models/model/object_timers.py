@@ -126,11 +126,11 @@ class _Reading:
         """
         if callback.id is not None:
             others = [t for t in self.timers if t.handler != callback.enter.port and t.phase is timers[-1].phase]
-            is_ever = (
-                self.runtime.ics.reading("timer-ids") == "ever"
-            )  # or it may have ended with rounds that were left out
+            # without "ever", a repeated one may have ended with rounds that were left out, and its identifier be given again
+            is_ever = self.runtime.ics.reading("timer-ids") == "ever"
             others = [t for t in others if t.id == callback.id and t.waits(callback.n) and (is_ever or t.rate is None)]
-            if others and all(t.id != callback.id for t in timers):
+            others = [t for t in others if t.has_usual_times and not t.is_contested and _share_scheduler([t, *timers])]
+            if others and all(t.id not in (None, callback.id) for t in timers):
                 callback.stranger = others[0]
                 return None
         possible = timers if len(timers) == 1 else self._possible(callback, timers)
@@ -149,8 +149,9 @@ class _Reading:
             return waiting or timers
         same = [t for t in timers if t.id == callback.id]
         unknown = [t for t in waiting if t.id is None]
-        if same and self.runtime.ics.reading("timer-ids") == "ever":
-            return same
+        here = [t for t in same if t.phase is timers[-1].phase]
+        if here and self.runtime.ics.reading("timer-ids") == "ever" and _share_scheduler(timers):
+            return here
         return [*(t for t in same if t in waiting), *unknown] or same or [t for t in timers if t.id is None] or timers
 
     def _may_come(self, timer: Timer, callback: TimerCallback) -> bool:
@@ -162,6 +163,11 @@ class _Reading:
             return False
         due = earliest(self.runtime, timer, len(timer.callbacks))
         return due is None or cancel.reply is None or due <= cancel.reply.t
+
+
+def _share_scheduler(timers: list[Timer]) -> bool:
+    """Were they made by one scheduler? Others may give the same identifiers."""
+    return len({timer.call.request.port for timer in timers}) == 1
 
 
 def _timer(phase: TimerPhase, call: MethodCall, number: int) -> Timer | None:

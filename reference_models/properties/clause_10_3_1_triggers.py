@@ -32,7 +32,7 @@ def rounds_are_bounded(check: Property, runtime: ObservedRuntime) -> Conclusions
             if timer.max_rounds is None or timer.rate is None or timer.is_contested:
                 continue
             if timer.max_rounds == 0:
-                yield from _no_rounds(check, runtime, timer) if not timer.has_no_delay else ()
+                yield from _no_rounds(check, runtime, timer) if not (timer.has_no_delay or timer.is_in_startup) else ()
             elif len(timer.callbacks) > timer.max_rounds:
                 yield check.fail(
                     "too many",

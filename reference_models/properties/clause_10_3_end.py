@@ -136,7 +136,8 @@ def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusi
         if paused and any(phase.of.ended_at < due < paused[-1] for due in dues):
             yield check.kept(_PHASES[phase.kind])
         if following:
-            yield from _after_restart(check, runtime, phase, following[0], waiting)
+            lasting = [t for t in waiting if t.waits(phase.of.closed)]  # another container may have been stopped first
+            yield from _after_restart(check, runtime, phase, following[0], lasting)
 
 
 def _after_restart(
