@@ -12,8 +12,17 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member, has_meaningless_values, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, has_timers, policies_of, policy_elements
-from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback
+from ucm_cts.reference_models.model.timer_events import Kind, Timer, TimerCallback
 from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+OfKind = dict[Kind, str]
+"""A requirement of each kind of timers."""
+
+EARLY: OfKind = {"index": "R-10.3.2-25", "object": "R-10.3.1-19"}
+LATE: OfKind = {"index": "R-10.3.2-26", "object": "R-10.3.1-20"}
+RATE: OfKind = {"index": "R-10.3.2-32", "object": "R-10.3.1-22"}
+PHASES: OfKind = {"index": "R-10.3.2-42", "object": "R-10.3.1-35"}
+"""What several modules ask: never early, not late, at the rate, and in operational phases only."""
 
 _WORDS = {s.INDEX_TIMERS: "index timers", s.OBJECT_TIMERS: "object timers"}
 _SUPPORTED = {s.INDEX_TIMERS: "R-10.3.2-19", s.OBJECT_TIMERS: "R-10.3.1-16"}
@@ -43,14 +52,14 @@ def timers_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
 
 def _started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, member: Member) -> Conclusions:
     for definition, words in _WORDS.items():
-        policies = policies_of(member.declaration, definition)
-        if len(policies) == 1:
+        number = len(policies_of(member.declaration, definition))
+        if number == 1:
             yield check.kept(_SUPPORTED[definition])
             others = ongoing.container.live_members()
             has_both = len(policies_of(member.declaration, *_WORDS)) == len(_WORDS)
             if has_both or any(not has_timers(other.declaration, definition) for other in others):
                 yield check.kept(_SEVERAL[definition])
-        elif policies and not (yield from takes(runtime, "second-timer-policy", "separate")):
+        elif number and not (yield from takes(runtime, "second-timer-policy", "separate")):
             yield check.fail(
                 "second policy",
                 expected=f"'{member.lane}', which has two policies for {words}, is refused, as declared",
@@ -63,13 +72,13 @@ def _started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProg
 def _refused(
     check: Property, runtime: ObservedRuntime, declaration: Declaration, operation: str, end: Raise
 ) -> Conclusions:
-    timers = {one: policies_of(declaration, one) for one in _WORDS if has_timers(declaration, one)}
+    timers = {one: len(policies_of(declaration, one)) for one in _WORDS if has_timers(declaration, one)}
     others = policies_of(declaration, s.COMPONENT_TRACE, s.PORT_TRACE)
     excused = others or has_several_clocks(declaration) or policies.is_contradictory(declaration)
     excused = excused or policies.extended_policy(declaration) is not None or policies.has_unknown_policy(declaration)
     if not timers or excused or raises(declaration, "on_init", "on_startup", "set_container_interface"):
         return
-    twice = [one for one, policies in timers.items() if len(policies) > 1]
+    twice = [one for one, number in timers.items() if number > 1]
     if twice:
         if not (yield from takes(runtime, "second-timer-policy", "refused")):
             expected = f"a component with two policies for {_WORDS[twice[0]]} is added and started, as declared"
@@ -105,6 +114,11 @@ def no_timers_without_policy(check: Property, runtime: ObservedRuntime, callback
             during=(ongoing, event),
             requirement=_NOT_WITHOUT[definition],
         )
+
+
+def both(*requirements: OfKind) -> tuple[str, ...]:
+    """Those of both kinds, each once."""
+    return tuple(dict.fromkeys(id_ for one in requirements for id_ in one.values()))
 
 
 def at_of(timer: Timer, *callbacks: TimerCallback) -> tuple[int, ...]:

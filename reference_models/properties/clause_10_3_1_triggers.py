@@ -32,7 +32,7 @@ def rounds_are_bounded(check: Property, runtime: ObservedRuntime) -> Conclusions
             if timer.max_rounds is None or timer.rate is None or timer.is_contested:
                 continue
             if timer.max_rounds == 0:
-                yield from _no_rounds(check, runtime, timer) if not (timer.has_no_delay or timer.is_in_startup) else ()
+                yield from _no_rounds(check, runtime, timer)
             elif len(timer.callbacks) > timer.max_rounds:
                 yield check.fail(
                     "too many",
@@ -51,6 +51,8 @@ def _is_quiet(timer: Timer, rate: TimeOut) -> bool:
 
 def _no_rounds(check: Property, runtime: ObservedRuntime, timer: Timer) -> Conclusions:
     """What a timer with no rounds did is permitted."""
+    if timer.has_no_delay or timer.is_in_startup:
+        return  # another option may be the reason of what it did
     due = latest(runtime, timer, 1)
     if timer.is_started:
         free = None if due is None else free_after(runtime, timer, due, timer.until[1])
@@ -83,8 +85,8 @@ def rounds_count_up(check: Property, runtime: ObservedRuntime) -> Conclusions:
             expected = f"triggers of {timer.label} of '{phase.member.lane}' tell rounds that rise by one"
             declared = runtime.ics.reading("first-round")
             is_single = timer.rate is None
-            number = overrun(runtime, timer)
-            if not number and not is_single:
+            disturbed = overrun(runtime, timer)
+            if not disturbed and not is_single:
                 continue  # rounds may have been left out before the first one
             name = _FIRST_ROUNDS.get(first) if isinstance(first, int) and not isinstance(first, bool) else None
             is_right = name is not None and (
@@ -99,7 +101,7 @@ def rounds_count_up(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 )
                 continue
             is_protected = protection_of(phase.member.declaration) not in ("", "unprotected")
-            wrong = _out_of_order(rounds if is_protected else rounds[: number + 1], number + 1)
+            wrong = _out_of_order(rounds if is_protected else rounds[: disturbed + 1], disturbed + 1)
             if wrong is not None:
                 yield check.fail(
                     "not by one",
@@ -139,7 +141,7 @@ def triggers_have_their_timer(check: Property, runtime: ObservedRuntime) -> Conc
                 observed = f"it was handed {callback.stranger.label}"
                 requirement = _HANDLER
             elif callback.timer is None and not callback.is_open:
-                observed, requirement = "no timer had been made with that handler", _HANDLER
+                observed, requirement = "no timer that was made with it was left", _HANDLER
             else:
                 why = _other_timer(runtime, phase, callback)
                 if not why:
@@ -168,11 +170,8 @@ def _other_timer(runtime: ObservedRuntime, phase: TimerPhase, callback: TimerCal
     if callback.id is None or callback in phase.resumed:
         return ""
     same_handler = [t for t in phase.timers if t.handler == callback.enter.port and t.call.request.n < callback.n]
-    if (
-        not callback.may_be_earlier
-        and all(t.id is not None and t.id != callback.id for t in same_handler)
-        and same_handler
-    ):
+    are_others = bool(same_handler) and all(t.id not in (None, callback.id) for t in same_handler)
+    if are_others and not callback.may_be_earlier:
         return f"it was handed a timer with the identifier {printed(callback.id)}, which none of that handler has"
     timer = callback.timer
     if timer is None or timer.is_contested or timer.id is None:
@@ -228,9 +227,8 @@ def _readings_of_delta(runtime: ObservedRuntime, timer: Timer, number: int, told
     made = timer.call.request.t
     last = timer.callbacks[number - 1].t if number else made
     due = earliest(runtime, timer, number)
-    expired = (
-        min(due, callback.t) if due is not None else made
-    )  # a trigger may wait for its component with what it tells
+    # a trigger may wait for its component with what it tells
+    expired = min(due, callback.t) if due is not None else made
     fitting = set()
     if expired - made - tolerance <= told.lasts <= callback.t - made + tolerance:
         fitting.add("since-scheduled")

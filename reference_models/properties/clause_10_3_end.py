@@ -13,13 +13,13 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness
 from ucm_cts.reference_models.model.phases import is_outside
 from ucm_cts.reference_models.model.service_policies import has_timers
-from ucm_cts.reference_models.model.timer_events import Kind, Timer, TimerPhase
+from ucm_cts.reference_models.model.timer_events import Timer, TimerPhase
 from ucm_cts.reference_models.model.timer_times import earliest, free_after, latest
 from ucm_cts.reference_models.model.timers import all_timer_phases
+from ucm_cts.reference_models.properties.clause_10_3 import PHASES, OfKind
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_CANCELS: dict[Kind, str] = {"index": "R-10.3.2-38", "object": "R-10.3.1-31"}
-_PHASES: dict[Kind, str] = {"index": "R-10.3.2-42", "object": "R-10.3.1-35"}
+_CANCELS: OfKind = {"index": "R-10.3.2-38", "object": "R-10.3.1-31"}
 
 DueAnswer = bool | Literal["open", "unknown"]
 
@@ -100,28 +100,25 @@ def due_shown(runtime: ObservedRuntime, due: DueAnswer) -> str:
     return f"{shown}, as is-cancelled={declared} declares" if shown and due == "open" else "a boolean"
 
 
-@property_at("closed", *_PHASES.values(), feature="timers", timed=True)
+@property_at("closed", *PHASES.values(), feature="timers", timed=True)
 def timers_serve_operational_components(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """No callback enters a component before its on_startup returned, or after its stop or removal did."""
     for member in list(runtime.bodies.values()):
         if not has_timers(member.declaration) or member.suspended:
             continue
-        executions = runtime.executions.of(member.body)
-        entered = [(e, "index") for e in executions if is_callback(e)]
-        entered += [(e, "object") for e in executions if is_trigger(e, member)]
-        found = ((e, kind) for e, kind in entered if is_outside(runtime, member, e.enter.n))
-        outside, kind = next(found, (None, ""))
+        entered = (e for e in runtime.executions.of(member.body) if is_callback(e) or is_trigger(e, member))
+        outside = next((e for e in entered if is_outside(runtime, member, e.enter.n)), None)
         if outside is not None:
             yield check.fail(
                 "not operational",
                 expected=f"'{member.lane}' is called back after its on_startup returned and before stop returned",
                 observed="it was called back outside of that",
                 at=(outside.enter.n,),
-                requirement=_PHASES["index" if kind == "index" else "object"],
+                requirement=PHASES["object" if is_trigger(outside, member) else "index"],
             )
 
 
-@property_at("closed", *_PHASES.values(), feature="timers", timed=True)
+@property_at("closed", *PHASES.values(), feature="timers", timed=True)
 def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A timer that waits at stop does not call back while its component is stopped; afterwards it does if that is declared."""
     phases = all_timer_phases(runtime)
@@ -134,7 +131,7 @@ def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusi
         paused = [p.t for p in runtime.interactions.pauses if phase.of.closed < p.n]
         paused = [t for t in paused if not following or t < following[0].of.startup.t]
         if paused and any(phase.of.ended_at < due < paused[-1] for due in dues):
-            yield check.kept(_PHASES[phase.kind])
+            yield check.kept(PHASES[phase.kind])
         if following:
             lasting = [t for t in waiting if t.waits(phase.of.closed)]  # another container may have been stopped first
             yield from _after_restart(check, runtime, phase, following[0], lasting)
@@ -158,7 +155,7 @@ def _after_restart(
             expected=f"timers of '{phase.member.lane}' that wait when it is stopped {declared}, as declared",
             observed="one called back" if resumed else "none called back",
             at=(waiting[0].call.request.n, phase.of.until, *(c.n for c in resumed)),
-            requirement=_PHASES[phase.kind],
+            requirement=PHASES[phase.kind],
         )
 
 

@@ -11,7 +11,7 @@ from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness, shown
 from ucm_cts.reference_models.model.phases import noticed
-from ucm_cts.reference_models.model.timer_events import Kind, Timer
+from ucm_cts.reference_models.model.timer_events import Timer
 from ucm_cts.reference_models.model.timer_times import (
     MOST,
     earliest,
@@ -22,30 +22,20 @@ from ucm_cts.reference_models.model.timer_times import (
     overrun,
 )
 from ucm_cts.reference_models.model.timers import all_timers
-from ucm_cts.reference_models.properties.clause_10_3 import at_of
+from ucm_cts.reference_models.properties.clause_10_3 import EARLY, LATE, RATE, OfKind, at_of, both
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_OfKind = dict[Kind, str]
-"""A requirement of each kind of timers."""
-
-_EXPIRES: _OfKind = {"index": "R-10.3.2-21", "object": "R-10.3.1-18"}
-_EARLY: _OfKind = {"index": "R-10.3.2-25", "object": "R-10.3.1-19"}
-_LATE: _OfKind = {"index": "R-10.3.2-26", "object": "R-10.3.1-20"}
-_ONCE: _OfKind = {"index": "R-10.3.2-29", "object": _EXPIRES["object"]}
-_AGAIN: _OfKind = {"index": "R-10.3.2-30", "object": "R-10.3.1-23"}
-_FIRST: _OfKind = {"index": "R-10.3.2-31", "object": "R-10.3.1-21"}
-_RATE: _OfKind = {"index": "R-10.3.2-32", "object": "R-10.3.1-22"}
-_SEVERAL: _OfKind = {"index": "R-10.3.2-36", "object": "R-10.3.1-34"}
-_ONE_ONLY: _OfKind = {"index": "R-10.3.2-39", "object": "R-10.3.1-32"}
-_IN_THE_END: _OfKind = {"index": "R-10.3.2-44", "object": "R-10.3.1-36"}
+_EXPIRES: OfKind = {"index": "R-10.3.2-21", "object": "R-10.3.1-18"}
+_ONCE: OfKind = {"index": "R-10.3.2-29", "object": _EXPIRES["object"]}
+_AGAIN: OfKind = {"index": "R-10.3.2-30", "object": "R-10.3.1-23"}
+_FIRST: OfKind = {"index": "R-10.3.2-31", "object": "R-10.3.1-21"}
+_SEVERAL: OfKind = {"index": "R-10.3.2-36", "object": "R-10.3.1-34"}
+_ONE_ONLY: OfKind = {"index": "R-10.3.2-39", "object": "R-10.3.1-32"}
+_IN_THE_END: OfKind = {"index": "R-10.3.2-44", "object": "R-10.3.1-36"}
 _OWN_START, _NUMBERS, _APART, _ANEW = "R-10.3.2-27", "R-10.3.2-33", "R-10.3.2-37", "R-10.3-04"
 
 
-def _both(*requirements: _OfKind) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(id_ for one in requirements for id_ in one.values()))
-
-
-_MISSING = (_ANEW, *_both(_EXPIRES, _AGAIN, _SEVERAL, _ONE_ONLY, _IN_THE_END), _NUMBERS, _APART)
+_MISSING = (_ANEW, *both(_EXPIRES, _AGAIN, _SEVERAL, _ONE_ONLY, _IN_THE_END), _NUMBERS, _APART)
 
 _ENOUGH, _AT_ONCE = 3, 3
 """So many callbacks show that a timer repeats, and so many timers that wait at once are several."""
@@ -61,7 +51,7 @@ def _judged(runtime: ObservedRuntime) -> list[Timer]:
     return [t for t in all_timers(runtime) if t.has_usual_times and not t.is_contested and t.is_started]
 
 
-@property_at("closed", *_both(_EARLY, _FIRST, _RATE), feature="timers", timed=True)
+@property_at("closed", *both(EARLY, _FIRST, RATE), feature="timers", timed=True)
 def timers_never_early(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """No callback comes before its time has passed since its timer was started."""
     for timer in _judged(runtime):
@@ -69,7 +59,7 @@ def timers_never_early(check: Property, runtime: ObservedRuntime) -> Conclusions
             if timer.most is not None and number >= timer.most:
                 break
             due = earliest(runtime, timer, number)
-            requirement = _of_time(timer, number, _EARLY)
+            requirement = _of_time(timer, number, EARLY)
             if due is None or callback.t >= due:
                 yield check.kept(requirement)
                 continue
@@ -83,9 +73,9 @@ def timers_never_early(check: Property, runtime: ObservedRuntime) -> Conclusions
             break
 
 
-def _of_time(timer: Timer, number: int, of_single: _OfKind) -> str:
+def _of_time(timer: Timer, number: int, of_single: OfKind) -> str:
     """The requirement about the time of callback ``number``; ``of_single`` is that of timers that do not repeat."""
-    return (of_single if timer.rate is None else _RATE if number else _FIRST)[timer.kind]
+    return (of_single if timer.rate is None else RATE if number else _FIRST)[timer.kind]
 
 
 def _asked(timer: Timer, number: int) -> str:
@@ -97,7 +87,7 @@ def _asked(timer: Timer, number: int) -> str:
     return f"the first time {first}" if not number else f"every {timer.rate.shown}, the first time {first}"
 
 
-@property_at("closed", *_both(_LATE, _FIRST, _RATE), *_MISSING, feature="timers", timed=True)
+@property_at("closed", *both(LATE, _FIRST, RATE), *_MISSING, feature="timers", timed=True)
 def timers_expire_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Each expiry calls back, within the declared lateness if nothing holds the component."""
     come: list[Timer] = []
@@ -173,7 +163,7 @@ def _untimely(
         requirement = _why_missing(runtime, timer, number, was_busy)
         observed = f"callback {number + 1} did not come" if timer.rate is not None else "it did not"
     else:
-        requirement = _of_time(timer, number, _LATE)
+        requirement = _of_time(timer, number, LATE)
         observed = f"it called back {shown(by)} later than timer-lateness permits"
     busy = ", once the component is free" if was_busy else ""
     return check.fail(
@@ -222,14 +212,14 @@ def _kept(check: Property, runtime: ObservedRuntime, timer: Timer, come: Sequenc
     """What a timer that came in time has shown."""
     if timer.kind == "index" or timer.rate is None:
         yield check.kept(_EXPIRES[timer.kind])
-    yield check.kept(_LATE[timer.kind])
+    yield check.kept(LATE[timer.kind])
     due = earliest(runtime, timer, 0)
     if due is not None and timer.rate is None and is_kept_out(runtime, timer, timer.callbacks[0], due):
         yield check.kept(_IN_THE_END[timer.kind])
     if timer.rate is not None:
         yield check.kept(_FIRST[timer.kind])
         if len(timer.callbacks) >= _ENOUGH:
-            yield check.kept(_RATE[timer.kind])
+            yield check.kept(RATE[timer.kind])
             if timer.kind == "index":
                 yield check.kept(_AGAIN["index"])
     at_once = [t for t in come if t.phase is timer.phase and t.call.request.n < timer.callbacks[0].n]
@@ -273,7 +263,7 @@ def relative_times_count_from_start(check: Property, runtime: ObservedRuntime) -
             break
 
 
-@property_at("closed", *_both(_ONCE), feature="timers", timed=True)
+@property_at("closed", *both(_ONCE), feature="timers", timed=True)
 def sporadic_timers_come_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A sporadic timer calls back once, and not again within three further delays."""
     for timer in all_timers(runtime):

@@ -10,7 +10,7 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import MILLISECOND
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, shown
 from ucm_cts.reference_models.model.phases import noticed
-from ucm_cts.reference_models.model.timer_events import SECOND, Kind, TimeOut, Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.timer_events import SECOND, TimeOut, Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_times import (
     CLOCKS,
     MOST,
@@ -23,15 +23,11 @@ from ucm_cts.reference_models.model.timer_times import (
     read_in,
 )
 from ucm_cts.reference_models.model.timers import all_timer_phases
-from ucm_cts.reference_models.properties.clause_10_3 import at_of
+from ucm_cts.reference_models.properties.clause_10_3 import EARLY, LATE, PHASES, RATE, at_of, both
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _DATES, _TIME_TOLD = "R-10.3.2-28", "R-10.3.2-35"
-_EARLY: dict[Kind, str] = {"index": "R-10.3.2-25", "object": "R-10.3.1-19"}
-_LATE: dict[Kind, str] = {"index": "R-10.3.2-26", "object": "R-10.3.1-20"}
-_RATE: dict[Kind, str] = {"index": "R-10.3.2-32", "object": "R-10.3.1-22"}
-_PHASES: dict[Kind, str] = {"index": "R-10.3.2-42", "object": "R-10.3.1-35"}
-_UNUSUAL = tuple(id_ for one in (_EARLY, _RATE, _LATE, _PHASES) for id_ in one.values())
+_UNUSUAL = both(EARLY, RATE, LATE, PHASES)
 
 
 def _clocks(runtime: ObservedRuntime) -> list[str]:
@@ -105,15 +101,15 @@ def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if timer.is_in_startup:
                 if timer.has_usual_times:
                     value = "works" if timer.callbacks else "ignored"
-                    yield from _takes(check, runtime, timer, "timer-in-startup", value, due, _PHASES[timer.kind])
+                    yield from _takes(check, runtime, timer, "timer-in-startup", value, due, PHASES[timer.kind])
             elif timer.rate is not None and timer.rate.is_absolute:
                 value = "ignored" if timer.callbacks else "refused"
                 yield from _takes(
-                    check, runtime, timer, "absolute-rate", value, latest(runtime, timer, 1), _RATE[timer.kind]
+                    check, runtime, timer, "absolute-rate", value, latest(runtime, timer, 1), RATE[timer.kind]
                 )
             elif timer.has_no_delay and timer.max_rounds != 0:
                 value = "at-once" if timer.callbacks else "ignored"
-                yield from _takes(check, runtime, timer, "zero-delay", value, due, _EARLY[timer.kind])
+                yield from _takes(check, runtime, timer, "zero-delay", value, due, EARLY[timer.kind])
                 yield from _at_once(check, runtime, timer, due)
             elif timer.delay.is_absolute:
                 read = [r for m in _clocks(runtime) if (r := read_before(timer, m)) is not None]
@@ -137,7 +133,7 @@ def _at_once(check: Property, runtime: ObservedRuntime, timer: Timer, due: int |
             expected=f"{timer.label} of '{timer.phase.member.lane}', which is due when it is started, calls back at once",
             observed=f"it called back {shown(callback.t - limit)} later than timer-lateness permits",
             at=at_of(timer, callback),
-            requirement=_LATE[timer.kind],
+            requirement=LATE[timer.kind],
         )
 
 
@@ -166,7 +162,7 @@ def _takes(
         )
 
 
-@property_at("closed", *_RATE.values(), feature="timers", timed=True)
+@property_at("closed", *RATE.values(), feature="timers", timed=True)
 def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """What becomes of expiries while a callback lasts is as declared: caught up, left out, merged, or the grid begins anew."""
     for phase in all_timer_phases(runtime):
@@ -189,7 +185,7 @@ def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 expected=f"expiries of {timer.label} of '{phase.member.lane}' while it is executed are treated as declared: {declared}",
                 observed=f"they were treated as under {' or '.join(sorted(fitting))}",
                 at=at_of(timer, *timer.callbacks[number : number + 3]),
-                requirement=_RATE[timer.kind],
+                requirement=RATE[timer.kind],
             )
 
 

@@ -48,3 +48,23 @@ def check_times(callbacks: Sequence[t.Event], begin: int, due: Sequence[float]) 
     came = [(e.t - begin) / 1e9 for e in callbacks]
     assert len(came) == len(due), came
     assert all(at <= moment < at + LATE for moment, at in zip(came, due, strict=True)), came
+
+
+def while_called(builds: Builds, component: s.Declaration) -> tuple[tuple[t.Event, ...], t.Exit]:
+    """What ``component`` shows while it is held at gate g in a call and afterwards, and how that call left it."""
+    told = s.Invoke("tell", 1, thread="w")
+    after = (s.ReachGate("g"), s.Pause(150), s.OpenGate("g"), s.Join("w"), s.Pause(150))
+    trace = traced(builds, component, told, *after)
+    (left,) = (e for e in trace if isinstance(e, t.Exit) and e.hook == "exchange")
+    return trace, left
+
+
+def ended(builds: Builds, component: s.Declaration, end: s.Step) -> tuple[t.Event, ...]:
+    """What ``component`` shows that is called back, and held there at gate g, when ``end`` begins on thread z: that waits."""
+    steps = (TELL, s.ReachGate("g"), end, s.Settle("z"), s.OpenGate("g"), s.Join("z"))
+    trace = traced(builds, component, *steps)
+    assert [e.where for e in trace if isinstance(e, t.Settled)] == ["blocked"]
+    left = next(e for e in trace if isinstance(e, t.Exit) and e.hook == "method")
+    shut_down = next(e for e in trace if isinstance(e, t.Enter) and e.hook == "on_shutdown")
+    assert left.n < shut_down.n
+    return trace

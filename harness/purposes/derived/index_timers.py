@@ -5,11 +5,16 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import CallMethod, Declaration, Policy, Step
 from ucm_cts.harness.purposes.derived.timer_steps import (
+    ACTIVE,
+    INSIDE,
     OTHER_PORT,
+    PASSIVE,
     PORT,
     READ_CLOCKS,
+    SELF,
     SERVICE,
     TIMERS,
+    UNPROTECTED,
     WITH_CLOCK,
     after,
     alone,
@@ -24,13 +29,11 @@ from ucm_cts.harness.purposes.derived.timer_steps import (
     tell,
     timed,
     together,
+    while_held,
 )
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.reference_models.model.clock_readings import LOCAL, SYNCHRONIZED
 
-_INSIDE = "inside"
-_SELF, _ACTIVE = Policy(s.SELF_EXECUTING), Policy(s.ACTIVE, PORT)
-_PASSIVE, _UNPROTECTED = Policy(s.PROTECTED_PASSIVE), Policy(s.UNPROTECTED_PASSIVE)
 _LARGE = (0, 300, s.LARGEST_NUMBER)
 """Numbers that not every type of numbers has."""
 
@@ -62,15 +65,15 @@ def _support() -> TestPurpose:
     orders = (sporadic(5, 1, 1), is_canceled(5, 2), cancel(5, 3), periodic(6, 1, 1, 4), cancel(6, 5))
     cases = [
         (policy.definition, alone(timed(*orders, policies=(policy, TIMERS)), s.GetComponents()))
-        for policy in (_SELF, _ACTIVE, _PASSIVE, _UNPROTECTED)
+        for policy in (SELF, ACTIVE, PASSIVE, UNPROTECTED)
     ]
     cases.append(("all operations", alone(timed(*orders), *map(tell, (1, 2, 3, 2, 4, 5)))))
     plain = {"plain": Declaration((PORT,)), "timed": timed(sporadic(5, 1, 1))}
     cases.append(("beside a component without", together(plain, tell(1, "timed"), tell(1, "plain"), after(1))))
     each = {
-        "active": timed(sporadic(5, 1), policies=(_ACTIVE, TIMERS)),
-        "passive": timed(sporadic(5, 1), policies=(_PASSIVE, TIMERS)),
-        "unprotected": timed(sporadic(5, 1), policies=(_UNPROTECTED, TIMERS)),
+        "active": timed(sporadic(5, 1), policies=(ACTIVE, TIMERS)),
+        "passive": timed(sporadic(5, 1), policies=(PASSIVE, TIMERS)),
+        "unprotected": timed(sporadic(5, 1), policies=(UNPROTECTED, TIMERS)),
     }
     cases.append(("one of each policy", together(each, *(tell(1, name) for name in each), after(1))))
     other = Policy(s.INDEX_TIMERS, element="other.timer_service")
@@ -155,11 +158,8 @@ def _cancel() -> TestPurpose:
     cases.append(
         ("started anew", alone(anew, tell(1), after(1), tell(2), tell(3), after(3), tell(2), tell(5), after(2)))
     )
-    held = timed(sporadic(5, 1, 1), s.HoldAtGate(_INSIDE), cancel(5, 1), policies=(_PASSIVE, TIMERS))
-    late = (
-        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE)),
-        *(s.Join("holder"), after(0.2)),
-    )
+    held = timed(sporadic(5, 1, 1), s.HoldAtGate(INSIDE), cancel(5, 1), policies=(PASSIVE, TIMERS))
+    late = while_held(1500, 0.2)
     cases.append(("of one that waits for its component", alone(held, *late)))
     return purposes_about("cancel", "22 38 39 40 .04", *cases)
 
@@ -226,9 +226,9 @@ def _startup() -> TestPurpose:
     cases = [("returns at once", alone(timed(plan=setting), after(1)))]  # type: ignore[arg-type]
     ended = timed(plan={"on_startup": (sporadic(7, 1), cancel(7))})
     cases.append(("cancels", alone(ended, after(1))))
-    lasting = timed(plan={"on_startup": (sporadic(7, 1), s.HoldAtGate(_INSIDE))})
+    lasting = timed(plan={"on_startup": (sporadic(7, 1), s.HoldAtGate(INSIDE))})
     steps = (
-        *(s.AddComponent("timed"), s.Start(thread="starter"), s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE)),
+        *(s.AddComponent("timed"), s.Start(thread="starter"), s.ReachGate(INSIDE), s.Pause(1500), s.OpenGate(INSIDE)),
         *(s.Join("starter"), after(0.1), s.Stop()),
     )
     cases.append(("lasts longer", s.Scenario({"timed": lasting}, steps, 4000)))
@@ -238,38 +238,35 @@ def _startup() -> TestPurpose:
 def _protection() -> TestPurpose:
     """A timer expires while its component is executed: by a call, by itself, or by another callback."""
     cases = []
-    for policy in (_PASSIVE, _ACTIVE, _UNPROTECTED):
-        held = timed(sporadic(5, 1, 1), s.HoldAtGate(_INSIDE), policies=(policy, TIMERS))
-        steps: tuple[Step, ...] = (
-            *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE)),
-            *(s.Join("holder"), after(0)),
-        )
+    for policy in (PASSIVE, ACTIVE, UNPROTECTED):
+        held = timed(sporadic(5, 1, 1), s.HoldAtGate(INSIDE), policies=(policy, TIMERS))
+        steps: tuple[Step, ...] = while_held(1500, 0)
         cases.append((f"during a call, {policy.definition}", alone(held, *steps)))
-    running = timed(policies=(_SELF, TIMERS), plan={"on_startup": (sporadic(5, 1),), "run": (s.HoldAtGate(_INSIDE),)})
-    run = (s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE), s.Pause(200))
+    running = timed(policies=(SELF, TIMERS), plan={"on_startup": (sporadic(5, 1),), "run": (s.HoldAtGate(INSIDE),)})
+    run = (s.ReachGate(INSIDE), s.Pause(1500), s.OpenGate(INSIDE), s.Pause(200))
     cases.append(("during run", alone(running, *run)))
-    for policy, port in ((_PASSIVE, PORT), (_ACTIVE, PORT), (_ACTIVE, OTHER_PORT)):
-        calling = timed(sporadic(5, 1, 1), policies=(policy, TIMERS), on_timeout=(s.HoldAtGate(_INSIDE),))
+    for policy, port in ((PASSIVE, PORT), (ACTIVE, PORT), (ACTIVE, OTHER_PORT)):
+        calling = timed(sporadic(5, 1, 1), policies=(policy, TIMERS), on_timeout=(s.HoldAtGate(INSIDE),))
         steps = (
-            *(s.GetPortElement("timed", port, "api"), tell(1), s.ReachGate(_INSIDE)),
-            *(s.Invoke("api", 9, thread="caller"), s.Settle("caller"), s.Pause(50), s.OpenGate(_INSIDE)),
+            *(s.GetPortElement("timed", port, "api"), tell(1), s.ReachGate(INSIDE)),
+            *(s.Invoke("api", 9, thread="caller"), s.Settle("caller"), s.Pause(50), s.OpenGate(INSIDE)),
             s.Join("caller"),
         )
         cases.append((f"a call during a callback, {policy.definition}, {port}", alone(calling, *steps)))
-    held = timed(sporadic(5, 1, 1), policies=(_PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(_INSIDE),))
+    held = timed(sporadic(5, 1, 1), policies=(PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(INSIDE),))
     both = {"held": held, "other": timed(sporadic(5, 2, 1), sporadic(6, 4, 1))}
-    steps = (tell(1, "held"), tell(1, "other"), s.ReachGate(_INSIDE), s.Pause(1500), s.OpenGate(_INSIDE), after(1.6))
+    steps = (tell(1, "held"), tell(1, "other"), s.ReachGate(INSIDE), s.Pause(1500), s.OpenGate(INSIDE), after(1.6))
     cases.append(("during a callback of another component", together(both, *steps)))
-    two = timed(sporadic(1, 1, 1), sporadic(2, 2, 1), policies=(_PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(_INSIDE),))
-    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(1600), s.OpenGate(_INSIDE), after(0))
+    two = timed(sporadic(1, 1, 1), sporadic(2, 2, 1), policies=(PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(INSIDE),))
+    steps = (tell(1), s.ReachGate(INSIDE), s.Pause(1600), s.OpenGate(INSIDE), after(0))
     cases.append(("during another callback", alone(two, *steps)))
     return purposes_about("protection", "43 44", *cases)
 
 
 def _missed() -> TestPurpose:
     """A callback lasts for more than two periods."""
-    held = timed(periodic(1, 1, 1, 1), policies=(_PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(_INSIDE),))
-    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(2450), s.OpenGate(_INSIDE), after(2.6))
+    held = timed(periodic(1, 1, 1, 1), policies=(PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(INSIDE),))
+    steps = (tell(1), s.ReachGate(INSIDE), s.Pause(2450), s.OpenGate(INSIDE), after(2.6))
     return purposes_about("long callbacks", "30 32", ("one", alone(held, *steps)))
 
 
@@ -313,14 +310,11 @@ def _told() -> TestPurpose:
     cases = [("at once", alone(body, s.Pause(1), tell(1), after(3), s.Pause(1)))]
     held = timed(
         sporadic(5, 1, 1),
-        s.HoldAtGate(_INSIDE),
-        policies=(_PASSIVE, *WITH_CLOCK),
+        s.HoldAtGate(INSIDE),
+        policies=(PASSIVE, *WITH_CLOCK),
         on_timeout=READ_CLOCKS,
     )
-    steps = (
-        *(s.Pause(1), s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(4500), s.OpenGate(_INSIDE)),
-        *(s.Join("holder"), after(0), s.Pause(1)),
-    )
+    steps = (s.Pause(1), *while_held(4500, 0), s.Pause(1))
     cases.append(("after waiting", alone(held, *steps, patience=8000)))
     return purposes_about("times told", "35", *cases)
 

@@ -32,14 +32,14 @@ def repeated(delay: float, interval: float, rounds: int, told: int | None = None
     return CallMethod(SCHEDULER, s.SCHEDULE_REPEATED, arguments, given=told, handler=handler)
 
 
-def made(method: str, nth: int = 1, told: int | None = None) -> CallMethod:
-    """Calls a method of the ``nth`` timer that the scheduler returned for a single trigger."""
-    return CallMethod(SCHEDULER, method, given=told, on=TimerFrom(s.SCHEDULE_ONCE, nth))
+def made(method: str, nth: int = 1, told: int | None = None, by: str = s.SCHEDULE_ONCE) -> CallMethod:
+    """Calls a method of the ``nth`` timer that the scheduler returned ``by`` this method."""
+    return CallMethod(SCHEDULER, method, given=told, on=TimerFrom(by, nth))
 
 
-def own(method: str, nth: int = 0) -> CallMethod:
+def own(method: str, nth: int = 0, told: int | None = None) -> CallMethod:
     """Calls a method of the timer that was handed over: in its own trigger, or in the ``nth`` one."""
-    return CallMethod(SCHEDULER, method, on=TimerFrom(s.ON_TRIGGER, nth))
+    return CallMethod(SCHEDULER, method, given=told, on=TimerFrom(s.ON_TRIGGER, nth))
 
 
 ASKS = (own(s.TIMER_ID), own(s.TIMER_ROUNDS), own(s.IS_CANCELLED))

@@ -21,21 +21,24 @@ from ucm_cts.harness.purposes.derived.object_timer_steps import (
     scheduling,
 )
 from ucm_cts.harness.purposes.derived.timer_steps import (
+    ACTIVE,
+    INSIDE,
     OTHER_PORT,
+    PASSIVE,
     PORT,
+    SELF,
     TIMERS,
+    UNPROTECTED,
     after,
     alone,
     sporadic,
     tell,
     together,
+    while_held,
 )
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
-_INSIDE = "inside"
-_SELF, _ACTIVE = Policy(s.SELF_EXECUTING), Policy(s.ACTIVE, PORT)
-_PASSIVE, _UNPROTECTED = Policy(s.PROTECTED_PASSIVE), Policy(s.UNPROTECTED_PASSIVE)
-_HOLDS = (s.HoldAtGate(_INSIDE),)
+_HOLDS = (s.HoldAtGate(INSIDE),)
 _LONG = (2.2, 5, 257, 2148, 4295, 65537, 4294968)
 """Delays, in seconds, that not every type of times has."""
 
@@ -68,7 +71,7 @@ def _support() -> TestPurpose:
     orders = (*identified(once(0.2, 1)), repeated(0.2, 0.2, 2, 1, SECOND))
     cases = [
         (policy.definition, alone(scheduling(*orders, policies=(policy, SCHEDULES)), tell(1), after(0.4)))
-        for policy in (_SELF, _ACTIVE, _PASSIVE, _UNPROTECTED)
+        for policy in (SELF, ACTIVE, PASSIVE, UNPROTECTED)
     ]
     plain = {"plain": Declaration((PORT,)), "timed": scheduling(once(0.2, 1))}
     cases.append(("beside a component without", together(plain, tell(1, "timed"), tell(1, "plain"), after(0.2))))
@@ -100,6 +103,8 @@ def _several() -> TestPurpose:
     delays = ((0.9, FIRST), (0.3, SECOND), (1.2, THIRD), (0.6, FIRST), (0.15, SECOND))
     orders = identified(*(once(delay, 1, handler) for delay, handler in delays))
     cases = [("five", alone(scheduling(*orders, repeated(0.45, 0.3, 2, 1, THIRD)), tell(1), after(1.2)))]
+    sooner = scheduling(once(0.9, 1), once(0.2, 2, SECOND))
+    cases.append(("one that is due before those that wait", alone(sooner, tell(1), s.Pause(100), tell(2), after(0.9))))
     many = identified(*(once(0.2 + 0.05 * (number % 7), 1) for number in range(24)))
     others = {"second": scheduling(*identified(once(0.4, 1)))}
     cases.append(
@@ -137,9 +142,7 @@ def _asked() -> TestPurpose:
     asks = (made(s.TIMER_ID, 1, 2), made(s.TIMER_ROUNDS, 1, 2), made(s.IS_CANCELLED, 1, 2))
     body = scheduling(once(0.3, 1), *asks, made(s.CANCEL, 1, 3))
     cases = [("single", alone(body, tell(1), tell(2), after(0.3), tell(2), tell(3), tell(2)))]
-    handed = tuple(
-        s.CallMethod(own_call.port, own_call.method, given=2, on=s.TimerFrom(s.ON_TRIGGER, 1)) for own_call in ASKS
-    )
+    handed = tuple(own(method, 1, 2) for method in (s.TIMER_ID, s.TIMER_ROUNDS, s.IS_CANCELLED))
     later = scheduling(repeated(0.2, 0.3, 4, 1), *handed)
     cases.append(("repeated", alone(later, tell(1), s.Pause(350), tell(2), after(0.9), tell(2))))
     return _about("asked", "01 24 29 30 33", *cases)
@@ -147,9 +150,10 @@ def _asked() -> TestPurpose:
 
 def _cancel() -> TestPurpose:
     """Before expiry, in the own handler, one of three, twice, too late, and while the component is busy."""
-    before = scheduling(*identified(once(0.4, 1)), made(s.IS_CANCELLED, 1, 3), made(s.CANCEL, 1, 2))
+    asks = tuple(made(method, 1, 3) for method in (s.IS_CANCELLED, s.TIMER_ID, s.TIMER_ROUNDS))
+    before = scheduling(*identified(once(0.4, 1)), *asks, made(s.CANCEL, 1, 2))
     cases = [("before expiry", alone(before, tell(1), tell(3), tell(2), tell(3), after(1.3), tell(3)))]
-    ends = scheduling(repeated(0.2, 0.3, 5, 1), on_trigger=(*ASKS, own(s.CANCEL)))
+    ends = scheduling(repeated(0.2, 0.3, 5, 1), on_trigger=(*ASKS, own(s.CANCEL), *ASKS))
     cases.append(("in its handler", alone(ends, tell(1), after(1.2))))
     three = (*identified(once(0.4, 1), once(0.5, 1), once(0.6, 1)), made(s.CANCEL, 2, 2), made(s.IS_CANCELLED, 1, 2))
     cases.append(("one of three", alone(scheduling(*three), tell(1), s.Pause(100), tell(2), after(0.6))))
@@ -162,19 +166,12 @@ def _cancel() -> TestPurpose:
     cases.append(("too late", alone(late, tell(1), after(0.2), *map(tell, (3, 2, 3, 4)), after(0.3))))
     last = scheduling(once(0.5, 1), made(s.CANCEL, 1, 2))
     cases.append(("just before it is due", alone(last, tell(1), s.Pause(430), tell(2), after(0.4))))
-    held = scheduling(once(0.3, 1), *_HOLDS, made(s.CANCEL, 1, 1), policies=(_PASSIVE, SCHEDULES))
-    waits = (
-        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE)),
-        *(s.Join("holder"), after(0.1)),
-    )
+    held = scheduling(once(0.3, 1), *_HOLDS, made(s.CANCEL, 1, 1), policies=(PASSIVE, SCHEDULES))
+    waits = while_held(700, 0.1)
     cases.append(("of one that waits for its component", alone(held, *waits)))
-    handed = s.CallMethod(ASKS[0].port, s.CANCEL, given=2, on=s.TimerFrom(s.ON_TRIGGER, 2))
-    stopped = scheduling(repeated(0.2, 0.3, 6, 1), repeated(0.3, 0.3, 3, 1, SECOND), handed)
+    stopped = scheduling(repeated(0.2, 0.3, 6, 1), repeated(0.3, 0.3, 3, 1, SECOND), own(s.CANCEL, 2, 2))
     cases.append(("of a repeated one by another call", alone(stopped, tell(1), s.Pause(400), tell(2), after(1.2))))
-    returned = scheduling(
-        repeated(0.4, 0.3, 3, 1),
-        s.CallMethod(ASKS[0].port, s.CANCEL, given=2, on=s.TimerFrom(s.SCHEDULE_REPEATED, 1)),
-    )
+    returned = scheduling(repeated(0.4, 0.3, 3, 1), made(s.CANCEL, 1, 2, s.SCHEDULE_REPEATED))
     cases.append(("of a repeated one that came back", alone(returned, tell(1), tell(2), after(1.1))))
     return _about("cancel", "31 32 33", *cases)
 
@@ -229,7 +226,7 @@ def _startup() -> TestPurpose:
     cases.append(("cancels", alone(ended, after(0.4))))
     lasting = scheduling(plan={"on_startup": (once(0.3), *_HOLDS)})
     steps = (
-        *(s.AddComponent("timed"), s.Start(thread="starter"), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE)),
+        *(s.AddComponent("timed"), s.Start(thread="starter"), s.ReachGate(INSIDE), s.Pause(700), s.OpenGate(INSIDE)),
         *(s.Join("starter"), after(0.1), s.Stop()),
     )
     cases.append(("lasts longer", Scenario({"timed": lasting}, steps, 4000)))
@@ -239,37 +236,37 @@ def _startup() -> TestPurpose:
 def _protection() -> TestPurpose:
     """A timer expires while its component is executed: by a call, by itself, or by another trigger."""
     cases = []
-    for policy in (_PASSIVE, _ACTIVE, _UNPROTECTED):
+    for policy in (PASSIVE, ACTIVE, UNPROTECTED):
         held = scheduling(once(0.3, 1), *_HOLDS, policies=(policy, SCHEDULES))
-        steps: tuple[Step, ...] = (
-            *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE)),
-            *(s.Join("holder"), after(0)),
-        )
+        steps: tuple[Step, ...] = while_held(700, 0)
         cases.append((f"during a call, {policy.definition}", alone(held, *steps)))
-    running = scheduling(policies=(_SELF, SCHEDULES), plan={"on_startup": (once(0.3),), "run": _HOLDS})
-    run = (s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE), s.Pause(200))
+    rounds = scheduling(repeated(0.2, 0.4, 3, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES))
+    steps = while_held(500, 0.8)
+    cases.append(("during a call, rounds", alone(rounds, *steps)))
+    running = scheduling(policies=(SELF, SCHEDULES), plan={"on_startup": (once(0.3),), "run": _HOLDS})
+    run = (s.ReachGate(INSIDE), s.Pause(700), s.OpenGate(INSIDE), s.Pause(200))
     cases.append(("during run", alone(running, *run)))
-    for policy, port in ((_PASSIVE, PORT), (_ACTIVE, PORT), (_ACTIVE, OTHER_PORT)):
+    for policy, port in ((PASSIVE, PORT), (ACTIVE, PORT), (ACTIVE, OTHER_PORT)):
         calling = scheduling(once(0.3, 1), policies=(policy, SCHEDULES), on_trigger=_HOLDS)
         steps = (
-            *(s.GetPortElement("timed", port, "api"), tell(1), s.ReachGate(_INSIDE)),
-            *(s.Invoke("api", 9, thread="caller"), s.Settle("caller"), s.Pause(50), s.OpenGate(_INSIDE)),
+            *(s.GetPortElement("timed", port, "api"), tell(1), s.ReachGate(INSIDE)),
+            *(s.Invoke("api", 9, thread="caller"), s.Settle("caller"), s.Pause(50), s.OpenGate(INSIDE)),
             s.Join("caller"),
         )
         cases.append((f"a call during a trigger, {policy.definition}, {port}", alone(calling, *steps)))
-    two = scheduling(once(0.2, 1), once(0.5, 1, SECOND), policies=(_PASSIVE, SCHEDULES), on_trigger=_HOLDS)
-    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(700), s.OpenGate(_INSIDE), after(0))
+    two = scheduling(once(0.2, 1), once(0.5, 1, SECOND), policies=(PASSIVE, SCHEDULES), on_trigger=_HOLDS)
+    steps = (tell(1), s.ReachGate(INSIDE), s.Pause(700), s.OpenGate(INSIDE), after(0))
     cases.append(("during another trigger", alone(two, *steps)))
-    kinds = scheduling(once(0.5, 1), sporadic(5, 1, 1), policies=(_PASSIVE, SCHEDULES, TIMERS), on_trigger=_HOLDS)
-    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(900), s.OpenGate(_INSIDE), after(0))
+    kinds = scheduling(once(0.5, 1), sporadic(5, 1, 1), policies=(PASSIVE, SCHEDULES, TIMERS), on_trigger=_HOLDS)
+    steps = (tell(1), s.ReachGate(INSIDE), s.Pause(900), s.OpenGate(INSIDE), after(0))
     cases.append(("during a trigger, an index timer", alone(kinds, *steps)))
     return _about("protection", "36", *cases)
 
 
 def _missed() -> TestPurpose:
     """A trigger lasts for more than two intervals."""
-    held = scheduling(repeated(0.4, 0.8, 9, 1), policies=(_PASSIVE, SCHEDULES), on_trigger=_HOLDS)
-    steps = (tell(1), s.ReachGate(_INSIDE), s.Pause(2000), s.OpenGate(_INSIDE), after(1.6))
+    held = scheduling(repeated(0.4, 0.8, 9, 1), policies=(PASSIVE, SCHEDULES), on_trigger=_HOLDS)
+    steps = (tell(1), s.ReachGate(INSIDE), s.Pause(2000), s.OpenGate(INSIDE), after(1.6))
     return _about("long triggers", "22", ("one", alone(held, *steps)))
 
 
@@ -287,11 +284,8 @@ def _told() -> TestPurpose:
     """What triggers tell: single and repeated ones of different length, and one that had to wait for its component."""
     body = scheduling(once(0.7, 1), repeated(0.3, 0.5, 3, 1, SECOND))
     cases = [("at once", alone(body, s.Pause(400), tell(1), after(1.3)))]
-    held = scheduling(once(0.3, 1), *_HOLDS, policies=(_PASSIVE, SCHEDULES))
-    steps = (
-        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(_INSIDE), s.Pause(900), s.OpenGate(_INSIDE)),
-        *(s.Join("holder"), after(0)),
-    )
+    held = scheduling(once(0.3, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES))
+    steps = while_held(900, 0)
     cases.append(("after waiting", alone(held, *steps)))
     return _about("times told", "24 27", *cases)
 

@@ -18,6 +18,13 @@ WITH_CLOCK = (TIMERS, Policy(s.CLOCK, element=CLOCK))
 READ_CLOCKS = (CallMethod(CLOCK, LOCAL), CallMethod(CLOCK, SYNCHRONIZED))
 """A body that reads both its clocks."""
 
+SELF, ACTIVE = Policy(s.SELF_EXECUTING), Policy(s.ACTIVE, PORT)
+PASSIVE, UNPROTECTED = Policy(s.PROTECTED_PASSIVE), Policy(s.UNPROTECTED_PASSIVE)
+"""The execution policies of 10.1.3."""
+
+INSIDE = "inside"
+"""The gate at which bodies are held."""
+
 AFTERWARDS = 400
 """A timer that is due calls back within so many milliseconds."""
 
@@ -91,6 +98,12 @@ def together(components: dict[str, Declaration], *steps: Step, patience: int = 4
 def tell(value: int, whom: str = "") -> Step:
     """Calls the component with ``value``."""
     return s.Invoke(f"tell {whom}" if whom else "tell", value)
+
+
+def while_held(milliseconds: int, until: float) -> tuple[Step, ...]:
+    """Calls a component that is held at ``INSIDE`` for so long, and lets ``until`` seconds pass when it has left."""
+    held = (s.Invoke("tell", 1, thread="holder"), s.ReachGate(INSIDE), s.Pause(milliseconds), s.OpenGate(INSIDE))
+    return (*held, s.Join("holder"), after(until))
 
 
 def after(seconds: float) -> Step:

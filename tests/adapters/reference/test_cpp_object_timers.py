@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from cpp_builds import Builds, events
-from cpp_timers import EXECUTIONS, TELL, check_times, first, replies, traced
+from cpp_timers import EXECUTIONS, TELL, check_times, ended, first, replies, traced, while_called
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -187,30 +187,23 @@ def test_a_protected_component_is_not_entered_meanwhile(
 ) -> None:
     monkeypatch.setenv("UCM_CTS_LWUCM_OPTIONS", options)
     component = timed(once(0), s.HoldAtGate("g"), policies=execution)
-    told = s.Invoke("tell", 1, thread="w")
-    trace = traced(builds, component, told, s.ReachGate("g"), s.Pause(150), s.OpenGate("g"), s.Join("w"), s.Pause(150))
+    trace, left = while_called(builds, component)
     (entered,) = triggers(trace)
-    (left,) = (e for e in trace if isinstance(e, t.Exit) and e.hook == "exchange")
     assert left.n < entered.n
 
 
 def test_a_cancel_from_inside_a_protected_component_leaves_no_trigger(builds: Builds) -> None:
     cancels = (once(0), s.HoldAtGate("g"), call(s.CANCEL, s.SCHEDULE_ONCE, 1))
     component = timed(*cancels, policies=EXECUTIONS["passive"])
-    told = s.Invoke("tell", 1, thread="w")
-    trace = traced(builds, component, told, s.ReachGate("g"), s.Pause(150), s.OpenGate("g"), s.Join("w"), s.Pause(150))
+    trace, _ = while_called(builds, component)
     assert not triggers(trace)
 
 
 @pytest.mark.parametrize("end", [s.Stop(thread="z"), s.Destroy(thread="z")], ids=["stop", "destroy"])
 def test_the_end_waits_for_a_trigger(builds: Builds, end: s.Step) -> None:
     component = timed(once(0), once(0), trigger=(s.HoldAtGate("g"),))
-    trace = traced(builds, component, TELL, s.ReachGate("g"), end, s.Settle("z"), s.OpenGate("g"), s.Join("z"))
-    assert [e.where for e in trace if isinstance(e, t.Settled)] == ["blocked"]
+    trace = ended(builds, component, end)
     assert rounds(trace) == [1]
-    left = next(e for e in trace if isinstance(e, t.Exit) and e.hook == "method")
-    shut_down = next(e for e in trace if isinstance(e, t.Enter) and e.hook == "on_shutdown")
-    assert left.n < shut_down.n
 
 
 def test_a_component_has_both_kinds_of_timers(builds: Builds) -> None:
@@ -223,19 +216,6 @@ def test_a_component_has_both_kinds_of_timers(builds: Builds) -> None:
     assert rounds(trace) == [1]
     assert rounds(trace, s.TIMER_CALLBACK) == [1, 2], "numbers"
     assert replies(trace, "timer.timer_service") == [(), ()]
-
-
-REFUSED: dict[str, tuple[s.Policy, ...]] = {
-    "two": (s.Policy(s.OBJECT_TIMERS, element="a"), s.Policy(s.OBJECT_TIMERS, element="b")),
-    "of a port": (s.Policy(s.OBJECT_TIMERS, "in", element="a"),),
-    "with a parameter": (s.Policy(s.OBJECT_TIMERS, element="a", parameters={"rate": "1"}),),
-}
-
-
-@pytest.mark.parametrize("policies", REFUSED.values(), ids=REFUSED)
-def test_policies_that_are_refused(builds: Builds, policies: tuple[s.Policy, ...]) -> None:
-    scenario = s.Scenario({"A": s.Declaration(("in",), policies=policies)}, (s.AddComponent("A"),))
-    assert [e.error for e in events(builds.reference, scenario) if isinstance(e, t.Raise)] == ["UCM_ERROR"]
 
 
 def test_typed_hosts_have_generic_bodies_for_timers(builds: Builds) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from cpp_builds import Builds, events
-from cpp_timers import EXECUTIONS, TELL, check_times, first, replies, traced
+from cpp_timers import EXECUTIONS, TELL, check_times, ended, first, replies, traced, while_called
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -191,42 +191,33 @@ def test_a_protected_component_is_not_entered_meanwhile(
 ) -> None:
     monkeypatch.setenv("UCM_CTS_LWUCM_OPTIONS", options)
     component = timed(sporadic(1, relative(0)), s.HoldAtGate("g"), execution=execution)
-    told = s.Invoke("tell", 1, thread="w")
-    trace = traced(builds, component, told, s.ReachGate("g"), s.Pause(150), s.OpenGate("g"), s.Join("w"), s.Pause(150))
+    trace, left = while_called(builds, component)
     (entered,) = callbacks(trace)
-    (left,) = (e for e in trace if isinstance(e, t.Exit) and e.hook == "exchange")
     assert left.n < entered.n
 
 
 def test_an_unprotected_component_is_entered_at_any_time(builds: Builds) -> None:
     component = timed(sporadic(1, relative(0)), s.HoldAtGate("g"), execution=(s.Policy(s.UNPROTECTED_PASSIVE),))
-    told = s.Invoke("tell", 1, thread="w")
-    trace = traced(builds, component, told, s.ReachGate("g"), s.Pause(150), s.OpenGate("g"), s.Join("w"))
+    trace, left = while_called(builds, component)
     (entered,) = callbacks(trace)
-    (left,) = (e for e in trace if isinstance(e, t.Exit) and e.hook == "exchange")
     assert entered.n < left.n
 
 
 @pytest.mark.parametrize("end", [s.Stop(thread="z"), s.Destroy(thread="z")], ids=["stop", "destroy"])
 def test_the_end_waits_for_a_callback(builds: Builds, end: s.Step) -> None:
     component = timed(sporadic(1, relative(0)), sporadic(2, relative(0)), callback=(s.HoldAtGate("g"),))
-    trace = traced(builds, component, TELL, s.ReachGate("g"), end, s.Settle("z"), s.OpenGate("g"), s.Join("z"))
-    assert [e.where for e in trace if isinstance(e, t.Settled)] == ["blocked"]
+    trace = ended(builds, component, end)
     assert numbers(trace) == [1]
-    left = next(e for e in trace if isinstance(e, t.Exit) and e.hook == "method")
-    shut_down = next(e for e in trace if isinstance(e, t.Enter) and e.hook == "on_shutdown")
-    assert left.n < shut_down.n
 
 
-REFUSED: dict[str, tuple[s.Policy, ...]] = {
-    "two": (s.Policy(s.INDEX_TIMERS, element="a"), s.Policy(s.INDEX_TIMERS, element="b")),
-    "of a port": (s.Policy(s.INDEX_TIMERS, "in", element="a"),),
-    "with a parameter": (s.Policy(s.INDEX_TIMERS, element="a", parameters={"rate": "1"}),),
-}
-
-
-@pytest.mark.parametrize("policies", REFUSED.values(), ids=REFUSED)
-def test_policies_that_are_refused(builds: Builds, policies: tuple[s.Policy, ...]) -> None:
+@pytest.mark.parametrize("definition", [s.INDEX_TIMERS, s.OBJECT_TIMERS])
+@pytest.mark.parametrize("wrong", ["two", "of a port", "with a parameter"])
+def test_policies_that_are_refused(builds: Builds, definition: str, wrong: str) -> None:
+    policies = {
+        "two": (s.Policy(definition, element="a"), s.Policy(definition, element="b")),
+        "of a port": (s.Policy(definition, "in", element="a"),),
+        "with a parameter": (s.Policy(definition, element="a", parameters={"rate": "1"}),),
+    }[wrong]
     scenario = s.Scenario({"A": s.Declaration(("in",), policies=policies)}, (s.AddComponent("A"),))
     assert [e.error for e in events(builds.reference, scenario) if isinstance(e, t.Raise)] == ["UCM_ERROR"]
 

@@ -252,3 +252,15 @@ class forgets_that_objects_were_cancelled(_OwnCopy):
     def is_cancelled(self) -> bool:
         answer, self.was_cancelled = self.was_cancelled, False
         return answer
+
+
+@alters("is_cancelled", "R-10.3.1-33", clauses=TRIGGERED)
+def says_never_cancelled_of_repeated_objects(self: ScheduledTimer, own: bool) -> bool:
+    """is_cancelled of a repeated timer gives false."""
+    return own and self.timer.rate is None
+
+
+@alters("id", "R-10.3.1-29", clauses=TRIGGERED, also=ANY_TRIGGER)
+def renames_cancelled_timers(self: ScheduledTimer, own: str) -> str:
+    """The identifier changes when the timer is cancelled."""
+    return f"cancelled {own}" if self.is_cancelled() else own

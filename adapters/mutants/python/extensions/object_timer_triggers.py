@@ -332,3 +332,29 @@ family(
     },
     TRIGGERED,
 )
+
+
+@breaks("R-10.3.1-20", clauses=TRIGGERED, also=(*_QUEUED, "R-10.3.1-35"))
+class is_not_woken_by_earlier_timers(Triggers):
+    """A timer that is due before those that wait is noticed when the first of these is due."""
+
+    def _start(self, timer: Timer) -> None:
+        first = min((one.due for one in self._waiting.values()), default=timer.due)
+        super()._start(replace(timer, due=max(timer.due, first)))
+
+
+@breaks("R-10.3.1-36", clauses=TRIGGERED, also=MISSING_TRIGGERS)
+class rounds_enter_beside_other_executions(Base):
+    """A trigger of a repeated timer enters a protected component that is executed."""
+
+    def _trigger(self, member: Member, triggers: Triggers, timer: Timer) -> None:
+        if timer.rate is not None:
+            member.__dict__["is_spared"] = True
+        super()._trigger(member, triggers, timer)
+        member.__dict__.pop("is_spared", None)
+
+    def _execute_callback(self, member: Member, work: Callable[[], None]) -> None:
+        if member.__dict__.get("is_spared"):
+            work()
+        else:
+            super()._execute_callback(member, work)

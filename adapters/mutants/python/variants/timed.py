@@ -19,23 +19,29 @@ from ucm_cts.adapters.reference.python.timers import Timer, Timers
 _SECOND = 1_000_000_000
 
 
+READINGS_OF_BOTH = {
+    "zero-delay": "at-once",
+    "is-cancelled": "cancelled",
+    "timers-at-stop": "dropped",
+    "timer-in-startup": "works",
+    "timer-overrun": "queued",
+    "timer-cancel": "strict",
+    "timer-anchor": "grid",
+    "second-timer-policy": "refused",
+}
+"""What the reference framework makes of the options that both kinds of timers have."""
+
+
 @variant_of(
     *TIMED,
     readings={
-        "zero-delay": "at-once",
+        **READINGS_OF_BOTH,
         "past-time": "at-once",
         "absolute-rate": "ignored",
         "absolute-clock": "local",
         "number-in-use": "replace",
-        "is-cancelled": "cancelled",
-        "timers-at-stop": "dropped",
-        "timer-in-startup": "works",
-        "timer-overrun": "queued",
-        "timer-cancel": "strict",
-        "timer-anchor": "grid",
         "first-periodic-expiry": "delay",
         "callback-time": "requested",
-        "second-timer-policy": "refused",
     },
 )
 class declares_its_timers(Base):

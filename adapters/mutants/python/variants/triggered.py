@@ -44,14 +44,7 @@ _as("triggers_are_a_little_late", timed.is_a_little_late)
 @variant_of(
     *TRIGGERED,
     readings={
-        "zero-delay": "at-once",
-        "is-cancelled": "cancelled",
-        "timers-at-stop": "dropped",
-        "timer-in-startup": "works",
-        "timer-overrun": "queued",
-        "timer-cancel": "strict",
-        "timer-anchor": "grid",
-        "second-timer-policy": "refused",
+        **timed.READINGS_OF_BOTH,
         "timer-ids": "ever",
         "repeated-result": "printed",
         "first-repeated-trigger": "delay",
