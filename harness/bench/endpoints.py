@@ -22,7 +22,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortConnection,
     PortElementObject,
 )
-from ucm_cts.adapters.mutants.python import CONTAINER, mutants_of
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, mutants_of
 from ucm_cts.adapters.reference.python.framework import ContainerManager
 from ucm_cts.harness.bench.alternatives import parametrised_test, state_machine
 from ucm_cts.harness.bench.measuring import ROUNDS, empty_table, limit, medians, timed

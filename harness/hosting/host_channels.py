@@ -412,12 +412,12 @@ class HostProcess:
             return
         self._open = False
         os.close(self.target)
+        os.close(self.source)  # else a host with much to say waits until someone reads it
         try:
             if not orderly or self.status(_FAREWELL_SECONDS) is None:
                 self.signal(signal.SIGKILL)
                 self.status(_KILLED_SECONDS)
         finally:
             self._template.forget(self._pid)
-            os.close(self.source)
             if self.error is not None:
                 os.close(self.error)

@@ -17,7 +17,7 @@ import subprocess
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import IO, Protocol
 
@@ -87,8 +87,10 @@ class Started(Protocol):
 
     process: subprocess.Popen[bytes]
     """What this process has started, whose streams are those of the program."""
-    pid: int
-    """The number of the program's own process."""
+
+    @property
+    def pid(self) -> int:
+        """The number of the program's own process."""
 
     def processes(self) -> frozenset[psutil.Process]:
         """The program and all that it has started."""
@@ -145,8 +147,11 @@ class _Group:
             pass_fds=pass_fds,
             start_new_session=True,  # an interrupt at the terminal is for the harness
         )
-        self.pid = self.process.pid
         _limit(self.pid, resource.RLIMIT_FSIZE, largest_file)
+
+    @property
+    def pid(self) -> int:
+        return self.process.pid
 
     def processes(self) -> frozenset[psutil.Process]:
         found = set(below(self.pid))
@@ -210,7 +215,11 @@ class _Sandboxed:
             for descriptor in (told, tell, held, release, arguments):
                 if descriptor >= 0:
                     os.close(descriptor)
-        self.pid = _child_of(self._init, self.process) if self._init is not None else self.process.pid
+
+    @cached_property
+    def pid(self) -> int:
+        """Searched for when it is asked for: a program that has said something is there, and need not be waited for."""
+        return _child_of(self._init, self.process) if self._init is not None else self.process.pid
 
     def processes(self) -> frozenset[psutil.Process]:
         with suppress(psutil.Error):

@@ -6,7 +6,7 @@ import importlib
 import time
 from typing import Any
 
-from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
+from ucm_cts.adapters.mutants.python.subjects import CHEATS, UNSEEN, Cheat
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate

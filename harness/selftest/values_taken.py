@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterator, Mapping
 
-from ucm_cts.adapters.mutants.python import VARIANTS
+from ucm_cts.adapters.mutants.python.subjects import VARIANTS
 from ucm_cts.adapters.mutants.toolchain.registry import variants
 from ucm_cts.harness.catalogue.requirements import Interpretation, load_interpretations, load_options, load_requirements
 from ucm_cts.harness.results.statement import default_statement

@@ -16,7 +16,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
-from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, MUTANTS, Mutant
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes

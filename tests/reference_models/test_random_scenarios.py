@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event, Trace
-from ucm_cts.adapters.mutants.python import CONTAINER, CORE, POLICIES, Variant, mutants_of, variants_of
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, CORE, POLICIES, Variant, mutants_of, variants_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import ContractBroken, Performance
 from ucm_cts.adapters.sdk.python.recorder import Recorder

@@ -16,7 +16,7 @@ import pytest
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import FromHost, Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.mutants.python import VARIANTS, Variant
+from ucm_cts.adapters.mutants.python.subjects import VARIANTS, Variant
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import (

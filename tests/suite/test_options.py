@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from ucm_cts.adapters.contract.metamodel.reading import read_model
-from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, VARIANTS, variants_of
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, MUTANTS, VARIANTS, variants_of
 from ucm_cts.adapters.mutants.toolchain.registry import mutants, variants
 from ucm_cts.adapters.reference.toolchain.program import Program, reference
 from ucm_cts.harness.catalogue.requirements import (

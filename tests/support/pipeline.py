@@ -19,7 +19,7 @@ from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
-from ucm_cts.adapters.mutants.python import Mutant
+from ucm_cts.adapters.mutants.python.subjects import Mutant
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise

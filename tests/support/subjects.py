@@ -16,8 +16,8 @@ import msgspec
 from ucm_cts.adapters.contract import declarations as d
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
-from ucm_cts.adapters.mutants.python import MUTANTS
 from ucm_cts.adapters.mutants.python.registry import Base, bind
+from ucm_cts.adapters.mutants.python.subjects import MUTANTS
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.framework import ContainerManager
 from ucm_cts.adapters.reference.python.members import Failures, Member

@@ -1,134 +1,32 @@
 """Wrong and conformant frameworks that are derived from the Python reference framework.
 
 ``MUTANTS`` are wrong, ``VARIANTS`` are conformant, and ``CHEATS`` are adapters that hide defects. Each changes a few lines of the reference framework; the docstring names the defect, or the freedom that it uses.
-Every module of this package registers its own. ``ucm_cts.adapters.mutants.python:NAME`` names the adapter of one.
+``subjects`` has them all. ``ucm_cts.adapters.mutants.python:NAME`` names the adapter of one; a host that asks for it loads only the module that
+registers it, because each trial of a mutant starts a host.
 """
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
+from pathlib import Path
 
-from ucm_cts.adapters.mutants.python.registry import (
-    CHEATS,
-    CONTAINER,
-    CORE,
-    MUTANTS,
-    PACED,
-    POLICIES,
-    REQUESTS,
-    SHARED,
-    TIMED,
-    TRIGGERED,
-    UNSEEN,
-    VARIANTS,
-    Cheat,
-    Mutant,
-    Variant,
-    mutants_of,
-    variants_of,
-)
+from ucm_cts.adapters.mutants.python.registry import adapter_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
-
-__all__ = [
-    "CHEATS",
-    "CONTAINER",
-    "CORE",
-    "MUTANTS",
-    "PACED",
-    "POLICIES",
-    "REQUESTS",
-    "SHARED",
-    "TIMED",
-    "TRIGGERED",
-    "UNSEEN",
-    "VARIANTS",
-    "Cheat",
-    "Mutant",
-    "Variant",
-    "mutants_of",
-    "variants_of",
-]
-
-MODULES = {
-    "variants": (
-        "answers",
-        "attachments",
-        "clocks_and_traces",
-        "declared",
-        "draining",
-        "execution",
-        "messages",
-        "paced",
-        "timed",
-        "triggered",
-        "phases",
-        "readings",
-        "requests",
-        "restarts",
-        "services",
-        "shared_data",
-        "starting",
-        "undemanding",
-    ),
-    "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states", "types"),
-    "execution": ("policies", "running", "support"),
-    "container_services": ("clocks", "logs", "port_traces"),
-    "data": ("composite_types", "simple_types"),
-    "connectors": (
-        "ends",
-        "message_delivery",
-        "message_receivers",
-        "return_codes",
-        "service_calls",
-        "service_values",
-    ),
-    "extensions": (
-        *("requests", "responses", "request_connections"),
-        *("shared_freezes", "shared_notices", "shared_reads", "shared_writes"),
-        *("paced_calls", "paced_parameters", "paced_phases", "paced_runs"),
-        *("timer_callbacks", "timer_ends", "timer_expiry", "timer_service"),
-        *(
-            "object_timer_answers",
-            "object_timer_ends",
-            "object_timer_service",
-            "object_timer_told",
-            "object_timer_triggers",
-        ),
-    ),
-    "dimensions": (
-        "aftermath",
-        "at_once",
-        "callers",
-        "configured",
-        "counts",
-        "counts_of_connectors",
-        "early",
-        "extras",
-        "failures",
-        "instances",
-        "later_containers",
-        "later_use",
-        "moments",
-        "numbers",
-        "refusals",
-        "sharing",
-        "situations",
-        "sizes",
-    ),
-    "cheats": (
-        *("adapters", "exchanging", "intruding", "recognising", "tampering"),
-        *("replays_in_time", "replays_new_times", "replays_old_times"),
-    ),
-}
-"""By the folder: the modules that register mutants, variants or cheats."""
-
-for _folder, _modules in MODULES.items():
-    for _module in _modules:
-        import_module(f"{__name__}.{_folder}.{_module}")
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:
-    for known in (MUTANTS, VARIANTS, CHEATS, UNSEEN):
-        if name in known and (adapter := known[name].adapter) is not None:
+    for module in () if name.startswith("_") else (*_modules_that_define(name), "subjects"):
+        import_module(f"{__name__}.{module}")
+        adapter = adapter_of(name)
+        if adapter is not None:
             return adapter
     raise AttributeError(name)
+
+
+def _modules_that_define(name: str) -> list[str]:
+    """The modules of this package whose text has a function, a class or a row of a family called ``name``."""
+    here = Path(__file__).parent
+    definition = re.compile(rf'^(?:def|class) {name}\b|^ +"{name}": ', re.MULTILINE)
+    found = (file for file in sorted(here.glob("*/*.py")) if definition.search(file.read_text("utf-8")))
+    return [".".join(file.relative_to(here).with_suffix("").parts) for file in found]

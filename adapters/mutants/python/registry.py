@@ -105,6 +105,12 @@ UNSEEN: dict[str, Cheat] = {}
 """Cheats that no observation detects; an auditor must find them (docs/honesty.md)."""
 
 
+def adapter_of(name: str) -> type[ReferenceAdapter] | None:
+    """The adapter of the derived framework ``name``, if the module that registers it has been imported."""
+    known = (registered[name].adapter for registered in (MUTANTS, VARIANTS, CHEATS, UNSEEN) if name in registered)
+    return next((adapter for adapter in known if adapter is not None), None)
+
+
 def mutants_of(clauses: tuple[str, ...]) -> dict[str, Mutant]:
     """The mutants that the test purposes of some of these clauses must detect."""
     return {name: mutant for name, mutant in MUTANTS.items() if mutant.clauses[0].startswith(clauses)}

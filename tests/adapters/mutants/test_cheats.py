@@ -7,7 +7,7 @@ import re
 import pytest
 from files import ROOT
 
-from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
+from ucm_cts.adapters.mutants.python.subjects import CHEATS, UNSEEN, Cheat
 from ucm_cts.harness.selftest.cheat_trials import examine_cheat
 
 pytestmark = pytest.mark.slow

@@ -9,7 +9,7 @@ import pytest
 from cpp_builds import Builds
 
 from ucm_cts.adapters.mutants.cpp import VARIABLE, NativeMutant, native_mutants
-from ucm_cts.adapters.mutants.python import MUTANTS
+from ucm_cts.adapters.mutants.python.subjects import MUTANTS
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, examine_mutant, native_subject

@@ -5,7 +5,16 @@ from __future__ import annotations
 import pytest
 from pipeline import check_killed
 
-from ucm_cts.adapters.mutants.python import PACED, REQUESTS, SHARED, TIMED, TRIGGERED, Mutant, mutants_of, variants_of
+from ucm_cts.adapters.mutants.python.subjects import (
+    PACED,
+    REQUESTS,
+    SHARED,
+    TIMED,
+    TRIGGERED,
+    Mutant,
+    mutants_of,
+    variants_of,
+)
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate

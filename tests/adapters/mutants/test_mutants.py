@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from pipeline import check_killed, failing_requirements, spilled
 
-from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant, mutants_of
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, MUTANTS, Mutant, mutants_of
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.execution.leftovers import FREED, HOST_CHECKS
 from ucm_cts.reference_models.properties.table import PROPERTIES

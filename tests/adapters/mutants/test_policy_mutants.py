@@ -12,7 +12,7 @@ from pipeline import check_killed, check_wording, spilled
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.mutants.python import POLICIES, Mutant, Variant, mutants_of, variants_of
+from ucm_cts.adapters.mutants.python.subjects import POLICIES, Mutant, Variant, mutants_of, variants_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction

@@ -11,8 +11,8 @@ from pipeline import TakesTooLong, bounded
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.mutants.python import CONTAINER, Mutant, mutants_of
 from ucm_cts.adapters.mutants.python.registry import bind
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, Mutant, mutants_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction

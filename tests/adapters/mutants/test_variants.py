@@ -8,7 +8,7 @@ import msgspec
 import pytest
 from pipeline import Product
 
-from ucm_cts.adapters.mutants.python import CONTAINER, Variant, variants_of
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, Variant, variants_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue.requirements import load_options, load_requirements
 from ucm_cts.harness.results.statement import default_statement

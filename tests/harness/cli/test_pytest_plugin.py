@@ -18,7 +18,7 @@ from files import ROOT
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
-from ucm_cts.adapters.mutants.python import MUTANTS
+from ucm_cts.adapters.mutants.python.subjects import MUTANTS
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise

@@ -17,7 +17,7 @@ from files import ROOT
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
-from ucm_cts.adapters.mutants.python import MUTANTS, VARIANTS
+from ucm_cts.adapters.mutants.python.subjects import MUTANTS, VARIANTS
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options

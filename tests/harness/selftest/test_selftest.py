@@ -18,7 +18,7 @@ from performing import answer, scenario
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Enter, Trace
-from ucm_cts.adapters.mutants.python import MUTANTS
+from ucm_cts.adapters.mutants.python.subjects import MUTANTS
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Matrix
 from ucm_cts.harness.selftest.models_killing import all_models, examine_models
