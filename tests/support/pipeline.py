@@ -162,7 +162,7 @@ def bounded(scenario: Scenario) -> Iterator[None]:
         raise TakesTooLong
 
     before, most = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (psutil.Process().memory_info().vms + _ROOM, most))
+    resource.setrlimit(resource.RLIMIT_AS, (_this_process().memory_info().vms + _ROOM, most))
     began, handler = time.monotonic(), signal.signal(signal.SIGALRM, give_up)
     left, interval = signal.setitimer(signal.ITIMER_REAL, _SECONDS + waits(scenario), 1)
     try:
@@ -173,6 +173,11 @@ def bounded(scenario: Scenario) -> Iterator[None]:
         if left:  # that of the whole test
             signal.setitimer(signal.ITIMER_REAL, max(left - (time.monotonic() - began), 0.001), interval)
         resource.setrlimit(resource.RLIMIT_AS, (before, most))
+
+
+@functools.cache
+def _this_process() -> psutil.Process:
+    return psutil.Process()
 
 
 def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes, is_wrong: bool) -> Judged:

@@ -16,18 +16,16 @@ import msgspec
 from ucm_cts.adapters.contract import declarations as d
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
+from ucm_cts.adapters.mutants import python as mutants
 from ucm_cts.adapters.mutants.python.registry import Base, bind
-from ucm_cts.adapters.mutants.python.subjects import MUTANTS
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.framework import ContainerManager
 from ucm_cts.adapters.reference.python.members import Failures, Member
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:
-    try:
-        return MUTANTS[name].adapter
-    except KeyError:
-        raise AttributeError(name) from None
+    adapter: type[ReferenceAdapter] = getattr(mutants, name)
+    return adapter
 
 
 class Listening(ReferenceAdapter):
@@ -216,7 +214,7 @@ Moody = bind("Moody", _Moody, _Moody.__doc__)
 class Mended(ReferenceAdapter):
     """Was once ``stops_in_startup_order``, and conforms now."""
 
-    product = MUTANTS["stops_in_startup_order"].adapter.product
+    product = "stops_in_startup_order"
 
 
 class Forgets(Base):
