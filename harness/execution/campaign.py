@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
 from ucm_cts.harness.execution import leftovers
 from ucm_cts.harness.execution.campaign_state import CampaignState
-from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, timed_requirements
+from ucm_cts.harness.execution.confirmation import OTHERWISE, Confirmation, Unconfirmed, timed_requirements
 from ucm_cts.harness.execution.driving import Answer, Driving
 from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
@@ -219,7 +219,9 @@ class Campaign:
                 confirmed.add(requirement)
         failed = {requirement for requirement, _, _ in self._tally.failures}
         kept = [case for requirement, case in self._timed.items() if passes and requirement not in failed]
-        for name, scenario in {name: scenario for name, scenario in kept}.items():
+        again = {name: scenario for name, scenario in kept}
+        self._driver.look_ahead(again.items(), OTHERWISE)
+        for name, scenario in again.items():
             if allowance.is_used_up():
                 break
             answer, findings, not_confirmed = self._confirmation.of_pass(name, scenario)

@@ -19,16 +19,15 @@ from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.harness.execution.calls_apart import with_calls_apart
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.driving import (
-    LONGEST_HISTORY,
     Allowance,
     Answer,
     Circumstances,
     Disguising,
     Seconds,
-    lasting,
 )
 from ucm_cts.harness.execution.host_clock import HostClock
 from ucm_cts.harness.execution.integrity import believable, contradiction
+from ucm_cts.harness.execution.second_looks import SecondLooks
 from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits, waits
@@ -48,10 +47,6 @@ MOST_AHEAD = 8
 """How many scenarios each side host is given before answers are awaited."""
 
 _BETWEEN_COUNTS = 0.02
-
-_QUICK = 10_000_000
-"""Nanoseconds of an ordinary scenario, which can be run before another one at little cost."""
-
 _SHOWN = 5
 """How many kinds of processes a warning names."""
 
@@ -72,6 +67,7 @@ class Driver(Disguising):
         self.adapter = endpoint.text
         self.gaps = ClockGaps()
         self._numbers = itertools.count()
+        self._second_looks = SecondLooks(self._hosts, self._numbers)
         self._incident_time = IncidentTime(self._hosts.limits.incident_seconds)
         self._is_near = endpoint.kind in ("python", "executable") and not endpoint.virtual_time
         self._clocks: dict[int, HostClock] = {}
@@ -79,7 +75,6 @@ class Driver(Disguising):
         self._side: SideHosts | None = None
         self._left_behind: Counter[str] = Counter()
         self._left_waiting = 0
-        self._ordinary: deque[Scenario] = deque(maxlen=LONGEST_HISTORY)
         self._calls_apart = False
 
     def __enter__(self) -> Self:
@@ -216,21 +211,21 @@ class Driver(Disguising):
 
     def _note(self, answer: Answer) -> None:
         """What later runs depend on."""
-        if _is_ordinary(answer):
-            self._ordinary.append(answer.disguised)
+        self._second_looks.note(answer)
         self._incident_time.note_skips(answer.disguised, answer.trace if answer.incident is None else ())
 
     def _ahead(self, run: Run) -> Future[HostAnswer] | None:
         """The answer of a side host to come; None if the scenario is none that waits, or there are none."""
-        if (
-            not self._side_hosts
-            or not waits(run.scenario)
-            or any(isinstance(one, Stress) for one in run.scenario.steps)
-        ):
+        side = self._side_hosts_for(run.scenario)
+        return side.submit(run) if side is not None else None
+
+    def _side_hosts_for(self, scenario: Scenario) -> SideHosts | None:
+        """The side hosts, if there are to be any and ``scenario`` mostly waits."""
+        if not self._side_hosts or not waits(scenario) or any(isinstance(one, Stress) for one in scenario.steps):
             return None
         if self._side is None:
             self._side = SideHosts(self._endpoint, self._hosts.limits, self._side_hosts, self.identity)
-        return self._side.submit(run)
+        return self._side
 
     def _answered_ahead(self, case: _Case, insist: bool) -> Answer | None:
         """What a side host has answered; None if something else than the product kept it from answering."""
@@ -251,12 +246,11 @@ class Driver(Disguising):
             self._side.close()
             self._left_behind += self._side.left_behind
         self._side, self._side_hosts = None, 0
+        self._second_looks.forget()
 
     def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
         case = next(source, None)
-        if case is None:
-            return None
-        return self._case(*case)
+        return self._case(*case) if case is not None else None
 
     def _case(self, name: str, scenario: Scenario) -> _Case:
         return _Case(name, scenario, Run(next(self._numbers), self.disguise.scenario(scenario)))
@@ -272,16 +266,14 @@ class Driver(Disguising):
 
         The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
         """
-        scaled = lasting(scenario, circumstances.patience)
-        disguised = self.disguise.scenario(scaled)
-        before = [
-            Run(next(self._numbers), one) for one in itertools.islice(reversed(self._ordinary), circumstances.after)
-        ]
-        run = Run(next(self._numbers), disguised)
-        reply = self._hosts.run_again(run, circumstances.one_core, stream=False, first=before).reply
-        if not isinstance(reply, Traced) or contradiction(disguised, reply.events, reply.stuck) is not None:
-            return Answer(name, scaled, disguised, ())
-        return Answer(name, scaled, disguised, reply.events, stuck=reply.stuck)
+        return self._second_looks.take(name, scenario, circumstances, self.disguise)
+
+    def look_ahead(self, cases: Iterable[tuple[str, Scenario]], circumstances: Circumstances) -> None:
+        """Lets side hosts take those of ``cases`` that mostly wait."""
+        for name, scenario in cases:
+            side = self._side_hosts_for(scenario)
+            if side is not None:
+                self._second_looks.begin(name, scenario, circumstances, self.disguise, side)
 
     def many_times(self, name: str, scenario: Scenario) -> Generator[tuple[Answer, Usage | None], None, None]:
         """``scenario`` again and again on one fresh host, each time with what the host's process holds afterwards.
@@ -385,12 +377,6 @@ class Driver(Disguising):
 
 def _number_ahead(cases: Iterable[_Case]) -> int:
     return sum(case.ahead is not None for case in cases)
-
-
-def _is_ordinary(answer: Answer) -> bool:
-    """Whether it went quickly and without an incident."""
-    trace = answer.trace
-    return answer.incident is None and not answer.stuck and len(trace) > 1 and trace[-1].t - trace[0].t < _QUICK
 
 
 def _hangs_openly(scenario: Scenario, answer: HostAnswer, happened: Trace) -> bool:

@@ -110,6 +110,9 @@ class Disguising:
             self._disguise = Disguise(self.seed, self.identity.port_element_name)
         return self._disguise
 
+    def look_ahead(self, cases: Iterable[tuple[str, Scenario]], circumstances: Circumstances) -> None:
+        """These ``cases`` (name, scenario) will be run ``again`` in these ``circumstances``: what can be begun may begin."""
+
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""
         return self.disguise.reveal(value)
@@ -166,6 +169,9 @@ class Driving(Protocol):
 
     def again(self, name: str, scenario: Scenario, circumstances: Circumstances) -> Answer:
         """The same scenario run once more, in other ``circumstances``."""
+
+    def look_ahead(self, cases: Iterable[tuple[str, Scenario]], circumstances: Circumstances) -> None:
+        """These ``cases`` will be run ``again`` in these ``circumstances``."""
 
     def many_times(self, name: str, scenario: Scenario) -> Generator[tuple[Answer, Usage | None], None, None]:
         """``scenario`` again and again on one host, each time with what the host's process holds afterwards."""

@@ -102,8 +102,8 @@ class Host(Protocol):
     def printed(self) -> str:
         """What the host has printed since the last call, at most the last part of it."""
 
-    def keep_to_one_core(self) -> None:
-        """Restrict the threads that a local host will start to one core."""
+    def keep_to_one_core(self, number: int) -> None:
+        """Restrict the threads that a local host will start to one core: one for each ``number``, as far as there are so many."""
 
     def usage(self) -> Usage | None:
         """What its process holds now; None if that cannot be counted."""
@@ -194,10 +194,11 @@ class WatchedHost:
         self._printed.clear()
         return text
 
-    def keep_to_one_core(self) -> None:
+    def keep_to_one_core(self, number: int) -> None:
         if self._channel.pid is not None:
             with suppress(OSError, AttributeError):  # it is gone, or this system has no such thing
-                os.sched_setaffinity(self._channel.pid, {min(os.sched_getaffinity(0))})
+                cores = sorted(os.sched_getaffinity(0))
+                os.sched_setaffinity(self._channel.pid, {cores[number % len(cores)]})
 
     def close(self) -> None:
         self._close(orderly=True)
@@ -346,7 +347,7 @@ class InProcessHost:
     def printed(self) -> str:
         return ""  # it went to the terminal
 
-    def keep_to_one_core(self) -> None:
+    def keep_to_one_core(self, number: int) -> None:
         """Nothing to do: the cores are those of the harness."""
 
     def usage(self) -> Usage | None:

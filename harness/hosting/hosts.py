@@ -88,12 +88,16 @@ class Hosts:
     """The hosts behind ``endpoint``, one at a time. Close it, or use it in a ``with`` statement: nothing stays behind.
 
     ``welcome``: what the first host must say of the product, if that is known.
+    ``core``: the number of the core that hosts are kept to when they are to have one only.
     Raises ``WrongUse`` from ``welcome`` and ``run`` if the endpoint leads to no adapter, ``HostUnavailable`` if no first
     host can be had.
     """
 
-    def __init__(self, endpoint: Endpoint, limits: Limits | None = None, welcome: m.Welcome | None = None) -> None:
+    def __init__(
+        self, endpoint: Endpoint, limits: Limits | None = None, welcome: m.Welcome | None = None, core: int = 0
+    ) -> None:
         self._endpoint = endpoint
+        self._core = core
         self.limits = limits or Limits()
         self._opener: Opener | None = None
         self._host: Host | None = None
@@ -187,7 +191,7 @@ class Hosts:
                 with suppress(HostUnavailable):  # the run itself reports that no host can be had
                     self._open()
                     assert self._host
-                    self._host.keep_to_one_core()
+                    self._host.keep_to_one_core(self._core)
             for answer in self.run(runs):
                 answers.append(answer)
                 if not isinstance(answer.reply, m.Traced) or answer.reply.stuck:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import Counter
+from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import suppress
 
@@ -23,7 +24,7 @@ class SideHosts:
 
     def __init__(self, endpoint: Endpoint, limits: Limits, number: int, welcome: m.Welcome) -> None:
         self.number = number
-        self._places = [Hosts(endpoint, limits, welcome) for _ in range(number)]
+        self._places = [Hosts(endpoint, limits, welcome, core) for core in range(1, number + 1)]
         self._free = list(range(number))
         self._lock = threading.Lock()
         self._pool = ThreadPoolExecutor(number, "side host")
@@ -31,7 +32,13 @@ class SideHosts:
 
     def submit(self, run: m.Run) -> Future[Answer]:
         """Run it as soon as a place is free. The future raises whatever keeps a host from answering."""
-        return self._pool.submit(self._run, run)
+        return self._pool.submit(self._in_place, lambda hosts: next(iter(hosts.run([run]))))
+
+    def submit_again(self, run: m.Run, one_core: bool, first: Sequence[m.Run]) -> Future[Answer]:
+        """The same with ``run_again`` of ``Hosts``, not streamed."""
+        return self._pool.submit(
+            self._in_place, lambda hosts: hosts.run_again(run, one_core, stream=False, first=first)
+        )
 
     @property
     def left_behind(self) -> Counter[str]:
@@ -51,13 +58,13 @@ class SideHosts:
             with suppress(OSError):
                 hosts.close()
 
-    def _run(self, run: m.Run) -> Answer:
+    def _in_place(self, work: Callable[[Hosts], Answer]) -> Answer:
         with self._lock:
             if self._is_closed:
                 raise CancelledError
             place = self._free.pop()
         try:
-            (answer,) = self._places[place].run([run])
+            answer = work(self._places[place])
         finally:
             with self._lock:
                 self._free.append(place)

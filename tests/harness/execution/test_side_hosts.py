@@ -16,7 +16,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.harness.certificates.rejudging import without_clock
 from ucm_cts.harness.execution.campaign import Campaign
-from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.driver import Answer, Circumstances, Driver
 from ucm_cts.harness.hosting.host_watch import Limits
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results.values import FrameworkReport
@@ -173,6 +173,29 @@ def test_what_is_not_wanted_any_more_is_not_waited_for() -> None:
         answers = driver.run(cases(*[CALM, hour, hour] * 4))
         assert next(answers).name == "0"
         answers.close()  # type: ignore[attr-defined]
+        (later,) = driver.run(cases(CALM))
+    assert later.incident is None
+
+
+def test_second_looks_that_will_be_asked_for_overlap() -> None:
+    asked = cases(WAITS, TRIGGER, WAITS, WAITS)
+    patient = Circumstances(patience=2, one_core=True)
+    with Driver(locate("picky:Crashes"), 1, LIMITS, JOBS) as driver:
+        list(driver.run(cases(CALM)))
+        driver.look_ahead(asked, patient)
+        got = [driver.again(name, scenario, patient) for name, scenario in asked]
+        other = driver.again("0", WAITS, Circumstances())
+    assert [answer.name for answer in got] == [name for name, _ in asked]
+    assert [bool(answer.trace) for answer in got] == [True, False, True, True]
+    assert overlap(got[0], got[2])
+    assert got[0].scenario.patience == 2 * WAITS.patience
+    assert other.scenario.patience == WAITS.patience
+
+
+def test_second_look_that_is_not_asked_for_is_not_waited_for() -> None:
+    hour = msgspec.structs.replace(WAITS, steps=(s.AddComponent("calm"), s.Pause(3_600_000)))
+    with Driver(locate("reference-py"), 1, LIMITS, JOBS) as driver:
+        driver.look_ahead(cases(*[hour] * 6), Circumstances())
         (later,) = driver.run(cases(CALM))
     assert later.incident is None
 
