@@ -175,10 +175,8 @@ def _wrong_in(statement: Statement) -> Iterator[str]:
         if option in options and value not in options[option]:
             yield f"declares {one_line(option, 60)} = {one_line(value, 60)}, which is no reading of it"
     for name, amount in statement.ixit.items():
-        if name in IXIT and not (math.isfinite(amount) and 0 <= amount <= IXIT[name].greatest):
-            yield f"declares {name} = {amount}, which is no quantity from 0 to {IXIT[name].greatest:g}"
-    if statement.ixit.get("patience", 1) < 1:
-        yield "declares a patience of less than 1 ms"
+        if name in IXIT and not (math.isfinite(amount) and IXIT[name].least <= amount <= IXIT[name].greatest):
+            yield f"declares {name} = {amount}, which is no quantity from {IXIT[name].least:g} to {IXIT[name].greatest:g}"
     for profile in statement.profiles:
         if profile not in PROFILES:
             yield f"claims profile '{one_line(profile, 40)}', which there is not"

@@ -113,7 +113,7 @@ def run(
     repeat: int,
     in_process: bool,
     virtual_time: bool,
-    jobs: int,
+    jobs: int | None,
     no_sandbox: bool,
     timeout: float,
     memory: int,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import time
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn, Protocol
@@ -31,7 +31,7 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import asked_by, select
 from ucm_cts.harness.report.write import keep_report, report_folder
 from ucm_cts.harness.results.known_failures import KnownFailure, known_today
-from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.statement import HOSTS_AT_ONCE, Statement
 from ucm_cts.harness.results.tally import ended_early, of_selection
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
@@ -59,7 +59,7 @@ class FrameworkRun:
     repeat: int
     in_process: bool
     virtual_time: bool
-    jobs: int
+    jobs: int | None
     limits: Limits
     systematic: int
     explore: Budget
@@ -193,7 +193,8 @@ class _Series:
         which = f"run {number} of {of}"
         try:
             keeper = self._plan.keeper
-            make = keeper.driver if keeper is not None else functools.partial(Driver, jobs=self._wanted.jobs)
+            jobs = self._wanted.jobs or int(self._plan.statement.ixit[HOSTS_AT_ONCE])
+            make = keeper.driver if keeper is not None else functools.partial(Driver, jobs=jobs)
             with make(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
                 with self._interrupts.permitted():
                     identity = driver.identity
@@ -223,10 +224,10 @@ class _Series:
 
     def _measure(self, driver: Driver, which: str) -> str:
         campaign = Campaign(driver, self._wanted.profile, self._plan.known, self._plan.statement)
-        done = 0
+        done: Collection[str] = ()
         if self._state is not None:
             campaign.restore(self._state)
-            done, self._state = len(self._state.done), None
+            done, self._state = self._state.done, None
         problem = ""
         try:
             with self._interrupts.permitted():
@@ -245,7 +246,7 @@ class _Series:
         left = self._wanted.repeat - len(self.reports)
         return problem or (f"interrupted when {left} runs were left" if self._interrupts.came and left else "")
 
-    def _check(self, campaign: Campaign, which: str, done: int) -> None:
+    def _check(self, campaign: Campaign, which: str, done: Collection[str]) -> None:
         kept = time.monotonic()
 
         def between() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from ucm_cts.harness.cli.terminal import Output, progress_of
 from ucm_cts.harness.execution.campaign import Campaign
@@ -16,21 +16,23 @@ def carry_out(
     draw: Callable[[], int] | None,
     console: Output,
     which: str = "",
-    done: int = 0,
+    done: Collection[str] = (),
     between: Callable[[], None] = lambda: None,
 ) -> None:
     """Check ``purposes``, ``draw`` scenarios, confirm failures and shorten their scenarios.
 
-    ``draw`` returns how many causes of failure drawn scenarios show. ``which`` run it is goes before each line of progress; ``done``
-    purposes were checked before. ``between`` is called after each purpose, and may raise.
+    ``draw`` returns how many causes of failure drawn scenarios show. ``which`` run it is goes before each line of progress; the purposes
+    with the ids ``done`` were checked before. ``between`` is called after each purpose, and may raise.
     """
+    sizes = {purpose.id: len(purpose.scenarios) for purpose in purposes}
     with progress_of(console) as progress:
-        task = progress.add_task(f"{which}checking", total=len(purposes), completed=done)
+        completed = sum(sizes.get(purpose, 0) for purpose in done)
+        task = progress.add_task(f"{which}checking", total=sum(sizes.values()), completed=completed)
         failing = 0
         for checked in campaign.check(purposes):
             failing += bool(checked.failures)
             text = f"{which}{failing} failing, {one_line(checked.purpose.id, 50)}"
-            progress.update(task, advance=1, description=text)
+            progress.update(task, advance=sizes[checked.purpose.id], description=text)
             between()
         if draw is not None:
             progress.update(task, description=f"{which}drawing scenarios")

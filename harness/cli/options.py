@@ -144,9 +144,7 @@ virtual_time_option = click.option(
 jobs_option = click.option(
     "--jobs",
     type=click.IntRange(min=1),
-    default=1,
-    show_default=True,
-    help="How many hosts there may be at once: scenarios that wait do so side by side.",
+    help="How many hosts there may be at once: scenarios that wait do so side by side. [default: hosts-at-once of the statement]",
 )
 no_sandbox_option = click.option(
     "--no-sandbox", is_flag=True, help="Run the product without a sandbox; a report says so."

@@ -14,7 +14,15 @@ from types import FrameType
 from typing import IO, cast
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 
 LINE_EVERY = 10
 """Off a terminal, progress is a line each so many seconds."""
@@ -143,11 +151,12 @@ def ends_like_interrupts() -> Iterator[Interrupts]:
 
 
 def progress_of(console: Output, *columns: ProgressColumn) -> Progress:
-    """A progress bar with ``columns`` behind it, by default the number of finished ones; it disappears at the end.
+    """A progress bar with ``columns`` behind it, by default the number of finished ones, the time and what is left of it; it disappears at
+    the end.
 
     Off a terminal it is a line each ``LINE_EVERY`` seconds.
     """
-    behind = columns or (MofNCompleteColumn(), TimeElapsedColumn())
+    behind = columns or (MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn())
     bar = Progress if console.is_terminal else _Lines
     return bar(TextColumn("{task.description}", markup=False), BarColumn(), *behind, console=console, transient=True)
 
@@ -171,6 +180,8 @@ class _Lines(Progress):
         while not ended.wait(LINE_EVERY):
             for task in self.tasks:
                 of = f"{task.completed:.0f} of {task.total:.0f}, " if task.total else ""
+                left = task.time_remaining
+                of += f"about {left:.0f} s more, " if left else ""
                 self.console.print(
                     f"{time.monotonic() - began:.0f} s: {of}{task.description}", markup=False, soft_wrap=True
                 )

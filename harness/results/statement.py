@@ -25,17 +25,27 @@ IMPOSSIBLE = "impossible"
 
 @dataclass(frozen=True)
 class Quantity:
-    """A value of the IXIT: its default, its unit, its meaning, and its greatest sensible value."""
+    """A value of the IXIT: its default, its unit, its meaning, and its greatest and least sensible value."""
 
     default: float
     unit: str
     text: str
     greatest: float = 3_600_000
+    least: float = 0
 
+
+HOSTS_AT_ONCE = "hosts-at-once"
 
 IXIT: Mapping[str, Quantity] = {
+    HOSTS_AT_ONCE: Quantity(
+        1,
+        "hosts",
+        "so many processes with the product may work at once; scenarios that wait then do so side by side",
+        64,
+        1,
+    ),
     "patience": Quantity(
-        2000, "ms", "within this time comes what comes by itself: runs, messages, records, waiting calls"
+        2000, "ms", "within this time comes what comes by itself: runs, messages, records, waiting calls", least=1
     ),
     "clock-tolerance": Quantity(
         TOLERANCES["clock-tolerance"], "ms", "by so much a reading of local time may differ from the host's clock"

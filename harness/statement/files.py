@@ -143,10 +143,11 @@ class _Reader:
             place = f"ixit.{name}"
             self.known(name, place, IXIT, "quantity")
             quantity = IXIT[name]
-            least = 1 if name == "patience" else 0
             number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-            if not number or not least <= value <= quantity.greatest:
-                self.wrong(place, f"{name} is a number of {quantity.unit} from {least} to {quantity.greatest:g}")
+            if not number or not quantity.least <= value <= quantity.greatest:
+                self.wrong(
+                    place, f"{name} is a number of {quantity.unit} from {quantity.least:g} to {quantity.greatest:g}"
+                )
             yield name, float(value)
 
     def models(self) -> Iterator[str]:

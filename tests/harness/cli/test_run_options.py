@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from threading import Event
@@ -144,21 +145,26 @@ def test_all_is_an_option(here: Path) -> None:
 
 def test_progress_off_a_terminal_is_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(terminal, "LINE_EVERY", 0.001)
-    printed_twice = Event()
+    printed_twice, estimated = Event(), Event()
 
     class Sink(io.StringIO):
         def write(self, text: str) -> int:
             written = super().write(text)
             if self.getvalue().count("\n") > 1:
                 printed_twice.set()
+            if re.search(r" s: [45] of 70, about \d+ s more, 2 failing", self.getvalue()):
+                estimated.set()
             return written
 
     sink = Sink()
     monkeypatch.setattr("sys.stdout", sink)
     with terminal.progress_of(terminal.Output()) as progress:
-        progress.add_task("2 failing, [some] scenario", total=70, completed=3)
+        task = progress.add_task("2 failing, [some] scenario", total=70, completed=3)
         assert printed_twice.wait(60)
-    assert all(line.endswith(" s: 3 of 70, 2 failing, [some] scenario") for line in sink.getvalue().splitlines())
+        assert all(line.endswith(" s: 3 of 70, 2 failing, [some] scenario") for line in sink.getvalue().splitlines())
+        progress.advance(task)
+        progress.advance(task)
+        assert estimated.wait(60)
 
 
 # incidents
