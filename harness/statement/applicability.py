@@ -27,10 +27,21 @@ _PARTS_OF_POLICIES = {s.INDEX_TIMERS: "index-timers", s.OBJECT_TIMERS: "object-t
 
 def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
     """The test purposes of ``profile``, with the scenarios that need only claimed parts; systematic suites are
-    those for ``extra_states`` additional states.
+    those for ``extra_states`` additional states. A few that have something for every requirement come first.
     """
     reduced = (_reduced(purpose, statement) for purpose in _all_purposes(statement, profile, extra_states))
-    return tuple(purpose for purpose in reduced if purpose.scenarios)
+    return _every_requirement_early(tuple(purpose for purpose in reduced if purpose.scenarios))
+
+
+def _every_requirement_early(purposes: tuple[TestPurpose, ...]) -> tuple[TestPurpose, ...]:
+    """``purposes`` in their order, after those with few scenarios that together are for all requirements."""
+    first: set[str] = set()
+    met: set[str] = set()
+    for purpose in sorted(purposes, key=lambda purpose: len(purpose.scenarios)):
+        if not met.issuperset(purpose.requirements):
+            first.add(purpose.id)
+            met.update(purpose.requirements)
+    return tuple(sorted(purposes, key=lambda purpose: purpose.id not in first))
 
 
 def needs_of(scenario: Scenario) -> frozenset[str]:

@@ -38,7 +38,20 @@ def test_everything_applies_if_everything_is_claimed() -> None:
     readings = tuple(f"{option}={value}" for option, value in EVERYTHING.items())
     assert len(purposes_for(everything, "core")) == len(load_purposes("core", *readings))
     reduced, whole = purposes_for(default_statement(), "container"), load_purposes("container")
-    assert [(p.id, p.scenarios) for p in reduced] == [(p.id, p.scenarios) for p in whole]
+    assert {p.id: p.scenarios for p in reduced} == {p.id: p.scenarios for p in whole}
+
+
+@pytest.mark.parametrize("profile", ["container", "core", "extensions"])
+def test_every_requirement_is_asked_for_early(profile: str) -> None:
+    purposes = purposes_for(default_statement(), profile)
+    asked = {requirement for purpose in purposes for requirement in purpose.requirements}
+    scenarios, met = 0, set[str]()
+    for purpose in purposes:
+        if met == asked:
+            break
+        scenarios += len(purpose.scenarios)
+        met.update(purpose.requirements)
+    assert scenarios < sum(len(purpose.scenarios) for purpose in purposes) / 8
 
 
 def test_without_test_operations_only_their_requirements_are_left() -> None:
