@@ -11,10 +11,11 @@ from itertools import repeat
 from typing import NamedTuple, TypeVar, cast
 
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.common import Element, Named, child_fields, children
+from ucm_cts.adapters.contract.metamodel.common import Element, Named, children
 from ucm_cts.adapters.contract.metamodel.components import ComponentType
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
+from ucm_cts.adapters.contract.metamodel.spelling import fields_towards
 
 Result = TypeVar("Result")
 
@@ -175,13 +176,17 @@ class Names:
                 self._enter(child, inner)
 
 
-def each_element(model: Model, names: Names) -> Iterator[tuple[Element, Scope]]:
-    """All elements of ``model``, parents first, each with the scope in which its references are looked up."""
+def each_element(model: Model, names: Names, *kinds: type[Element]) -> Iterator[tuple[Element, Scope]]:
+    """All elements of ``model``, parents first, each with the scope in which its references are looked up.
+
+    With ``kinds`` only those of these classes; where none of them can be is not searched.
+    """
     waiting: list[tuple[Element, Scope]] = [(module, names.root) for module in reversed(model.modules)]
     while waiting:
         element, scope = waiting.pop()
-        yield element, scope
-        fields = child_fields(type(element))
+        if not kinds or isinstance(element, kinds):
+            yield element, scope
+        fields = fields_towards(type(element), kinds)
         if fields:
             inner = names.inside(element) if isinstance(element, MODULES) else scope
             for field in reversed(fields):
