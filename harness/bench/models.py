@@ -50,11 +50,13 @@ def _validate(path: Path) -> None:
 
 
 def _read(path: Path) -> None:
-    assert not read_model(path.read_bytes(), path.name).problems
+    with path.open("rb") as stream:
+        assert not read_model(stream, path.name).problems
 
 
 def _check(path: Path) -> None:
-    _, problems = reference().check(path.read_bytes(), path.name)
+    with path.open("rb") as stream:
+        _, problems = reference().check(stream, path.name)
     assert not problems, problems[:3]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
 from typing import Any, NamedTuple
@@ -88,80 +88,120 @@ def check(model: Model, file: str, rules: Mapping[str, Rule], plans: Plans) -> l
     """What ``rules`` have against ``model``, in the order of its lines. ``plans`` are those of the same rules, empty at first."""
     names = Names(model)
     found = [d for r in rules.values() if Model in r.kinds for d in _found_by(r, model, names.root, file)]
-    fine_in: dict[Scope, dict[type[Element], _PlanHere]] = {}
+    places: dict[Scope, _Place] = {}
 
-    def visit(elements: Iterable[Element], scope: Scope) -> None:
-        here = fine_in.setdefault(scope, {})
+    def visit(elements: Sequence[Element], scope: Scope) -> None:
+        place = places.get(scope)
+        if place is None:
+            place = places[scope] = _Place(rules, plans)
+        if len(elements) > _FEW:
+            first = type(elements[0])
+            plan = place.plans.get(first) or place.plan(first)
+            if not plan.always and plan.all_fine(elements):
+                return
         for element in elements:
             kind = type(element)
-            plan = here.get(kind)
-            if plan is None:
-                plan = here[kind] = _plan_here(kind, rules, plans)
-            for judged_by, fine in plan.judged:
-                if judged_by(element) not in fine:
-                    _judge(element, scope, plan, found, file)
+            plan = place.plans.get(kind) or place.plan(kind)
+            for decides, known in plan.fine:
+                if decides(element) not in known:
+                    found.extend(plan.judged(element, scope, file))
                     break
             else:
                 for one, complaints in plan.always:
                     for wrong, message in complaints(element, scope):
                         found.append(_diagnostic(one, wrong, message, file))
+            inner = names.inside(element) if plan.is_module else scope
             for field in plan.fields:
                 held = getattr(element, field)
                 if held:
-                    visit(held, names.inside(element) if plan.is_module else scope)
+                    visit(held, inner)
+            if plan.is_module:
+                places.pop(inner, None)  # nobody asks again, unless a module beside it has the same name
 
-    visit(model.modules, names.root)
+    if model.modules:
+        visit(model.modules, names.root)
     return sorted(found, key=lambda diagnostic: diagnostic.line)
 
 
-def _judge(element: Element, scope: Scope, plan: _PlanHere, found: list[Diagnostic], file: str) -> None:
-    """Apply all rules to ``element``, in their order, and note what is fine."""
-    wrong_in: set[JudgedBy | None] = set()
-    for one in plan.rules:
-        before = len(found)
-        for wrong, message in one.complaints(element, scope):
-            found.append(_diagnostic(one, wrong, message, file))
-        if len(found) > before:
-            wrong_in.add(one.judged_by)
-    for judged_by, fine in plan.judged:
-        if judged_by not in wrong_in:
-            fine.add(judged_by(element))
+_FEW = 2
+"""So few elements are judged one by one."""
+
+Applied = tuple[tuple[Rule, FindComplaints], ...]
+"""Rules that are applied one after the other."""
 
 
 class _Plan(NamedTuple):
-    """What is done with elements of one kind: their rules, those that are always applied, and the fields that lead to further elements."""
+    """What is done with elements of one kind.
 
-    rules: tuple[Rule, ...]
-    always: tuple[tuple[Rule, FindComplaints], ...]
-    judged: tuple[JudgedBy, ...]
+    ``rules``: all of theirs.
+    ``always``: those that are applied to each element.
+    ``judged``: the others, by what they look at.
+    ``fields``: those that lead to further elements with rules.
+    """
+
+    rules: Applied
+    always: Applied
+    judged: Mapping[JudgedBy, Applied]
     fields: tuple[str, ...]
     is_module: bool
-
-
-class _PlanHere(NamedTuple):
-    """The same for one scope; ``judged`` has what is known to be fine there."""
-
-    rules: tuple[Rule, ...]
-    always: tuple[tuple[Rule, FindComplaints], ...]
-    judged: tuple[tuple[JudgedBy, set[Hashable]], ...]
-    fields: tuple[str, ...]
-    is_module: bool
-
-
-def _plan_here(kind: type[Element], rules: Mapping[str, Rule], plans: Plans) -> _PlanHere:
-    plan = plans.get(kind)
-    if plan is None:
-        plan = plans[kind] = _plan(kind, rules)
-    fine: tuple[tuple[JudgedBy, set[Hashable]], ...] = tuple((judged_by, set()) for judged_by in plan.judged)
-    return _PlanHere(plan.rules, plan.always, fine, plan.fields, plan.is_module)
 
 
 def _plan(kind: type[Element], rules: Mapping[str, Rule]) -> _Plan:
-    applied = tuple(one for one in rules.values() if issubclass(kind, one.kinds))
-    always = tuple((one, one.complaints) for one in applied if one.judged_by is None)
-    judged = tuple(dict.fromkeys(one.judged_by for one in applied if one.judged_by is not None))
+    applied = tuple((one, one.complaints) for one in rules.values() if issubclass(kind, one.kinds))
+    deciding = dict.fromkeys(one.judged_by for one, _ in applied)
+    judged = {by: tuple(pair for pair in applied if pair[0].judged_by is by) for by in deciding}
+    always = judged.pop(None, ())
     ruled = tuple(dict.fromkeys(kind for one in rules.values() for kind in one.kinds))
     return _Plan(applied, always, judged, fields_towards(kind, ruled), issubclass(kind, MODULES))
+
+
+class _PlanHere(NamedTuple):
+    """The plan for one kind in one scope; ``fine`` has what is known to be fine there, by what it was taken from."""
+
+    plan: _Plan
+    fine: tuple[tuple[JudgedBy, set[Hashable]], ...]
+    always: Applied
+    fields: tuple[str, ...]
+    is_module: bool
+
+    def all_fine(self, elements: Sequence[Element]) -> bool:
+        """Whether ``elements`` are of this kind, are known to be fine, and hold nothing with rules: asked at once, because they are many."""
+        return (
+            len(set(map(type, elements))) == 1
+            and all(known.issuperset(map(decides, elements)) for decides, known in self.fine)
+            and not any(any(map(attrgetter(field), elements)) for field in self.fields)
+        )
+
+    def judged(self, element: Element, scope: Scope, file: str) -> list[Diagnostic]:
+        """What all rules have against ``element``, in their order; what is fine is noted."""
+        fresh = [(by, known) for by, known in self.fine if by(element) not in known]
+        wrong = {by for by, _ in fresh for _, find in self.plan.judged[by] if any(True for _ in find(element, scope))}
+        for by, known in fresh:
+            if by not in wrong:
+                known.add(by(element))
+        applied = self.plan.rules if wrong else self.always
+        return [_diagnostic(one, at, said, file) for one, find in applied for at, said in find(element, scope)]
+
+
+class _Place:
+    """The plans for the elements of one scope. Kinds with the same rules share what is known to be fine."""
+
+    def __init__(self, rules: Mapping[str, Rule], plans: Plans) -> None:
+        self.plans: dict[type[Element], _PlanHere] = {}
+        self._rules = rules
+        self._plans = plans
+        self._fine: dict[tuple[JudgedBy | FindComplaints, ...], set[Hashable]] = {}
+
+    def plan(self, kind: type[Element]) -> _PlanHere:
+        """The plan for ``kind``."""
+        plan = self._plans.get(kind)
+        if plan is None:
+            plan = self._plans[kind] = _plan(kind, self._rules)
+        fine = tuple(
+            (by, self._fine.setdefault((by, *(find for _, find in applied)), set())) for by, applied in plan.judged.items()
+        )
+        here = self.plans[kind] = _PlanHere(plan, fine, plan.always, plan.fields, plan.is_module)
+        return here
 
 
 def _found_by(one: Rule, model: Model, root: Scope, file: str) -> Iterator[Diagnostic]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from operator import attrgetter
 
 from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel import contracts as c
@@ -123,8 +124,13 @@ _MEMBERS: tuple[tuple[str, str, Owners, dict[str, str]], ...] = (
 def _differ(name: str, fields: dict[str, str]) -> FindComplaints:
     """The rule that no two members in one of ``fields`` have the same name."""
 
+    members = [attrgetter(field) for field in fields]
+
     def complaints(owner: Element, _scope: Scope) -> Iterable[Complaint]:
-        if not any(_repeats(getattr(owner, field)) for field in fields):
+        for held in members:
+            if _repeats(held(owner)):
+                break
+        else:
             return ()
         return [one for field, what in fields.items() for one in repeated(getattr(owner, field), _called(what, owner))]
 
@@ -141,7 +147,10 @@ def _called(what: str, owner: Element) -> str:
 
 
 def _repeats(elements: Sequence[Named]) -> bool:
-    return len(elements) > 1 and len({element.name for element in elements}) < len(elements)
+    return len(elements) > 1 and len(set(map(_NAME, elements))) < len(elements)
+
+
+_NAME = attrgetter("name")
 
 
 def repeated(elements: Iterable[Named], what: str) -> Iterator[tuple[Element, str]]:

@@ -69,7 +69,7 @@ class Ends(NamedTuple):
 
 def _ends(composite: mc.CompositeComponentImplementation, scope: Scope) -> list[Ends]:
     """The ports of each delegation that leads to one end."""
-    return scope.remembered(("delegated", id(composite)), lambda: list(_find_ends(composite, scope)))
+    return scope.remembered_last("delegated", id(composite), lambda: list(_find_ends(composite, scope)))
 
 
 def _find_ends(composite: mc.CompositeComponentImplementation, scope: Scope) -> Iterator[Ends]:

@@ -75,7 +75,7 @@ class Joint(NamedTuple):
 
 
 def _joints(composite: Composite, scope: Scope) -> list[Joint]:
-    return scope.remembered(("joints", id(composite)), functools.partial(_find_joints, composite, scope))
+    return scope.remembered_last("joints", id(composite), functools.partial(_find_joints, composite, scope))
 
 
 def _find_joints(composite: Composite, scope: Scope) -> list[Joint]:
