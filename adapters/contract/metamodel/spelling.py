@@ -247,7 +247,9 @@ def containers(cls: type[Element]) -> tuple[str, ...]:
 def fields_towards(cls: type[Element], kinds: tuple[type[Element], ...]) -> tuple[str, ...]:
     """The fields of a ``cls`` in which an element of ``kinds`` may stand, directly or deeper; of no kinds, all that hold elements."""
     held = contained(cls)
-    wanted = {field for inner, field in held.items() if not kinds or any(issubclass(one, kinds) for one in _within(inner))}
+    wanted = {
+        field for inner, field in held.items() if not kinds or any(issubclass(one, kinds) for one in _within(inner))
+    }
     return tuple(field for field in common.child_fields(cls) if field in wanted)
 
 

@@ -30,7 +30,6 @@ def has_name(named: Named) -> bool:
     return bool(named.name)
 
 
-
 @dataclass(frozen=True)
 class Rule:
     """A well-formedness rule.
@@ -148,9 +147,11 @@ class _Plan(NamedTuple):
 
 def _plan(kind: type[Element], rules: Mapping[str, Rule]) -> _Plan:
     applied = tuple((one, one.complaints) for one in rules.values() if issubclass(kind, one.kinds))
-    deciding = dict.fromkeys(one.judged_by for one, _ in applied)
-    judged = {by: tuple(pair for pair in applied if pair[0].judged_by is by) for by in deciding}
-    always = judged.pop(None, ())
+    judged: dict[JudgedBy, Applied] = {}
+    for one, complaints in applied:
+        if one.judged_by is not None:
+            judged[one.judged_by] = (*judged.get(one.judged_by, ()), (one, complaints))
+    always = tuple((one, complaints) for one, complaints in applied if one.judged_by is None)
     ruled = tuple(dict.fromkeys(kind for one in rules.values() for kind in one.kinds))
     return _Plan(applied, always, judged, fields_towards(kind, ruled), issubclass(kind, MODULES))
 
@@ -198,7 +199,8 @@ class _Place:
         if plan is None:
             plan = self._plans[kind] = _plan(kind, self._rules)
         fine = tuple(
-            (by, self._fine.setdefault((by, *(find for _, find in applied)), set())) for by, applied in plan.judged.items()
+            (by, self._fine.setdefault((by, *(find for _, find in applied)), set()))
+            for by, applied in plan.judged.items()
         )
         here = self.plans[kind] = _PlanHere(plan, fine, plan.always, plan.fields, plan.is_module)
         return here

@@ -51,7 +51,9 @@ def refuse_clashes(model: Model, spell: Spell, clause: str, language: str, membe
 @functools.cache
 def _member_fields(cls: type[Element]) -> tuple[str, ...]:
     """The fields of ``cls`` that hold what has a name in the target language, too."""
-    held = {field for inner, field in contained(cls).items() if issubclass(inner, Named) and not issubclass(inner, _OTHERS)}
+    held = {
+        field for inner, field in contained(cls).items() if issubclass(inner, Named) and not issubclass(inner, _OTHERS)
+    }
     return tuple(field for field in child_fields(cls) if field in held)
 
 

@@ -155,7 +155,9 @@ class Generation:
     def _enter(self, declared: Declared) -> None:
         element, place = declared.element, namespace(declared.scope.path)
         if isinstance(element, contracts.DataType) and not self._is_abstract(declared):
-            self._pieces[declared.path] = Piece(place, type_definition(declared, self._standard), self._part_paths(declared))
+            self._pieces[declared.path] = Piece(
+                place, type_definition(declared, self._standard), self._part_paths(declared)
+            )
         elif isinstance(element, contracts.Exception_):
             text = exception_definition(declared, self._standard)
             self._pieces[declared.path] = Piece(place, text, self._part_paths(declared))

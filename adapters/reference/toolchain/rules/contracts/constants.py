@@ -51,9 +51,7 @@ def constants_are_values_of_their_types(constant: c.Constant, scope: Scope) -> I
         pass
 
 
-@rule(
-    "R-9.2.2.7-01", c.ConfigurationParameter, c.Attribute, judged_by=attrgetter("type", "default_value")
-)
+@rule("R-9.2.2.7-01", c.ConfigurationParameter, c.Attribute, judged_by=attrgetter("type", "default_value"))
 def defaults_are_values_of_their_types(
     owner: c.ConfigurationParameter | c.Attribute, scope: Scope
 ) -> Iterator[Complaint]:
