@@ -25,8 +25,8 @@ def main() -> None:
     with console.status("going through the endpoints ..."):
         for table in endpoints.tables():
             console.print(table)
-    with console.status("reading and checking a million elements ..."):
-        console.print(models.of_a_large_model())
+    with console.status("checking and generating from models of up to a million elements ..."):
+        console.print(models.of_large_models())
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@ It has contracts, component types and implementations with policies, composites 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import functools
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import jinja2
@@ -18,7 +19,7 @@ from ucm_cts.harness.models.core_models import CORE
 
 _MESSAGE = "::messages::message_interaction_api::message_type_t"
 _SERVICE = "::services::service_interaction_api::service_intf_t"
-_MIX = {
+MIX: Mapping[str, object] = {
     "STRUCTURES": 30,
     "INTERFACES": 20,
     "TYPES": 24,
@@ -47,25 +48,32 @@ _TEMPLATE = jinja2.Template(_BLOCK.read_text(encoding="utf-8"), trim_blocks=True
 
 def large_model(elements: int) -> Model:
     """A model of about ``elements`` elements: the core models and at least one block of the mix."""
-    core = tuple(_core())
-    left = elements - sum(1 for module in core for _ in walk(module))
-    one = block(0)
-    blocks = max(1, round(left / sum(1 for module in one for _ in walk(module))))
-    return Model(modules=(*core, *(module for number in range(blocks) for module in block(number))))
+    left = elements - _size(_core())
+    return model_of(block(number) for number in range(max(1, round(left / _size(block(0))))))
 
 
-def _core() -> Iterator[Module]:
-    for path in sorted(CORE.glob("*.xml")):
-        yield from without_lines(read_model(path.read_bytes(), path.name).model).modules
-    yield aspects.NonfunctionalAspectModule(
+def model_of(blocks: Iterable[tuple[Module, ...]]) -> Model:
+    """The core models and ``blocks``."""
+    return Model(modules=(*_core(), *(module for modules in blocks for module in modules)))
+
+
+def _size(modules: tuple[Module, ...]) -> int:
+    return sum(1 for module in modules for _ in walk(module))
+
+
+@functools.cache
+def _core() -> tuple[Module, ...]:
+    files = (read_model(path.read_bytes(), path.name) for path in sorted(CORE.glob("*.xml")))
+    platform = aspects.NonfunctionalAspectModule(
         name="platform",
         supported_languages=(aspects.ProgrammingLanguages(languages=(aspects.Language(name="C++11"),)),),
     )
+    return (*(module for reading in files for module in without_lines(reading.model).modules), platform)
 
 
-def block(number: int) -> tuple[Module, ...]:
-    """Contracts, and the components that use them."""
-    xml = _TEMPLATE.render(_MIX, number=number)
+def block(number: int, mix: Mapping[str, object] = MIX) -> tuple[Module, ...]:
+    """Contracts, and the components that use them; ``mix`` has what ``MIX`` has."""
+    xml = _TEMPLATE.render(mix, number=number)
     reading = read_model(xml.encode(), _BLOCK.name)
     assert not reading.problems, reading.problems[0]
     return without_lines(reading.model).modules

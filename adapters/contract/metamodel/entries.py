@@ -42,6 +42,7 @@ class Entry(NamedTuple):
     """A class at one place: ``field`` of what is around it takes it, ``inside`` is what may stand in it, by tag.
 
     An element with ``given`` attributes, counting its line, has all that are required; -1 if that does not say so.
+    ``texts`` are the fields that hold text as it stands.
     """
 
     spelling: Spelling
@@ -52,6 +53,7 @@ class Entry(NamedTuple):
     required: frozenset[str]
     given: int
     converters: tuple[tuple[str, Converter], ...]
+    texts: tuple[str, ...]
     inside: dict[str, Entry]
 
 
@@ -76,6 +78,8 @@ def _spelled(cls: type[Element], field: str, insides: Mapping[type[Element], dic
     converters: list[tuple[str, Converter]] = [(f, words.__getitem__) for f, words in spelling.literals.items()]
     converters += [(f, _NUMBERS.__getitem__) for f in spelling.numbers]
     converters += [(f, TRUTHS.__getitem__) for f in spelling.truths]
+    converted = {field for field, _ in converters}
+    texts = [field for field in spelling.attributes.values() if field not in converted]
     entry = Entry(
         spelling=spelling,
         tag=spelling.tag,
@@ -85,6 +89,7 @@ def _spelled(cls: type[Element], field: str, insides: Mapping[type[Element], dic
         required=spelling.required,
         given=len(spelling.required) + 1 if len(spelling.required) == len(spelling.attributes) else -1,
         converters=tuple(converters),
+        texts=tuple(texts),
         inside=insides[cls],
     )
     found = {tag: entry._replace(tag=tag) for tag in (spelling.tag, *spelling.other_tags)}

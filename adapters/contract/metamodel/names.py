@@ -11,10 +11,11 @@ from itertools import repeat
 from typing import NamedTuple, TypeVar, cast
 
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.common import Element, Named, child_fields, children
+from ucm_cts.adapters.contract.metamodel.common import Element, Named, children
 from ucm_cts.adapters.contract.metamodel.components import ComponentType
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
+from ucm_cts.adapters.contract.metamodel.spelling import fields_towards
 
 Result = TypeVar("Result")
 
@@ -40,15 +41,16 @@ class Declared(NamedTuple):
 class Scope:
     """A module, or the root: what it declares, and what is around it. ``path`` is ``::a::b``, empty for the root."""
 
-    __slots__ = ("_known", "_remembered", "around", "members", "modules", "path")
+    __slots__ = ("_known", "_last", "_remembered", "around", "members", "modules", "path")
 
     def __init__(self, path: str = "", around: Scope | None = None) -> None:
         self.path = path
         self.around = around
         self.members: dict[str, list[Declared]] = {}
         self.modules: dict[str, list[Scope]] = {}
-        self._known: dict[tuple[str, tuple[type[Named], ...]], Declared | None] = {}
+        self._known: dict[str, tuple[Declared, ...]] = {}
         self._remembered: dict[Hashable, object] = {}
+        self._last: dict[str, tuple[Hashable, object]] = {}
 
     def find(self, reference: str, *kinds: type[Named]) -> Declared | None:
         """What ``reference`` means where this scope is, if it is one of ``kinds``; None if there is no such thing."""
@@ -56,12 +58,20 @@ class Scope:
 
     def find_one_of(self, reference: str, kinds: tuple[type[Named], ...]) -> Declared | None:
         """The same for kinds that are in a tuple already, which is faster."""
-        try:
-            return self._known[reference, kinds]
-        except KeyError:
-            found = next((d for d in self.candidates(reference) if isinstance(d.element, kinds)), None)
-            self._known[reference, kinds] = found
-            return found
+        known = self._known.get(reference)
+        if known is None:
+            known = self._known[reference] = self._first_of_each_kind(reference)
+        for declared in known:
+            if isinstance(declared.element, kinds):
+                return declared
+        return None
+
+    def _first_of_each_kind(self, reference: str) -> tuple[Declared, ...]:
+        """All that can be found for ``reference``: it may mean many things of one class, but only the first is ever found."""
+        found: dict[type[Named], Declared] = {}
+        for declared in self.candidates(reference):
+            found.setdefault(type(declared.element), declared)
+        return tuple(found.values())
 
     def remembered(self, key: Hashable, find_out: Callable[[], Result]) -> Result:
         """What ``find_out`` gave when this scope was first asked for ``key``, which must say whose it is and what it is about.
@@ -73,6 +83,13 @@ class Scope:
         except KeyError:
             result = self._remembered[key] = find_out()
             return result
+
+    def remembered_last(self, what: str, key: Hashable, find_out: Callable[[], Result]) -> Result:
+        """The same for what is asked several times in a row: of ``what`` only the result for the last ``key`` is kept."""
+        last = self._last.get(what)
+        if last is None or last[0] != key:
+            last = self._last[what] = (key, find_out())
+        return cast(Result, last[1])
 
     def candidates(self, reference: str) -> Iterator[Declared]:
         """All that ``reference`` could mean here, of any kind, the nearest first."""
@@ -161,7 +178,11 @@ class Names:
         return self._scopes[id(module)]
 
     def _enter(self, element: Named, scope: Scope) -> None:
-        scope.members.setdefault(element.name, []).append(Declared(element, scope))
+        same_name = scope.members.get(element.name)
+        if same_name is None:
+            scope.members[element.name] = [Declared(element, scope)]
+        else:
+            same_name.append(Declared(element, scope))
         if not isinstance(element, MODULES):
             return
         key = (id(scope), type(element), element.name)
@@ -175,13 +196,17 @@ class Names:
                 self._enter(child, inner)
 
 
-def each_element(model: Model, names: Names) -> Iterator[tuple[Element, Scope]]:
-    """All elements of ``model``, parents first, each with the scope in which its references are looked up."""
+def each_element(model: Model, names: Names, *kinds: type[Element]) -> Iterator[tuple[Element, Scope]]:
+    """All elements of ``model``, parents first, each with the scope in which its references are looked up.
+
+    With ``kinds`` only those of these classes; where none of them can be is not searched.
+    """
     waiting: list[tuple[Element, Scope]] = [(module, names.root) for module in reversed(model.modules)]
     while waiting:
         element, scope = waiting.pop()
-        yield element, scope
-        fields = child_fields(type(element))
+        if not kinds or isinstance(element, kinds):
+            yield element, scope
+        fields = fields_towards(type(element), kinds)
         if fields:
             inner = names.inside(element) if isinstance(element, MODULES) else scope
             for field in reversed(fields):

@@ -7,8 +7,10 @@ that an element in canonical spelling is built by one call; all others take the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, Literal
+import io
+import os
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, BinaryIO, Literal
 from xml.parsers import expat
 
 import msgspec
@@ -83,12 +85,25 @@ class Reading(msgspec.Struct, frozen=True, kw_only=True):
     problems: tuple[Problem, ...] = ()
 
 
-def read_model(xml: bytes, name: str) -> Reading:
-    """The model that ``xml`` holds. Never raises."""
-    reader = _Reader(xml)
+Source = bytes | BinaryIO
+"""A model as it is written: all its bytes, or an open file, of which never all is in memory. A file must be seekable."""
+
+
+def whole(xml: Source) -> bytes:
+    """All bytes of ``xml``."""
+    if isinstance(xml, bytes):
+        return xml
+    xml.seek(0)
+    return xml.read()
+
+
+def read_model(xml: Source, name: str) -> Reading:
+    """The model that ``xml`` holds. Raises nothing, but ``OSError`` if ``xml`` is a file that cannot be read."""
+    stream = io.BytesIO(xml) if isinstance(xml, bytes) else xml
+    reader = _Reader(stream)
     reader.read(texts=False)
     if reader.has_text:
-        reader = _Reader(xml)
+        reader = _Reader(stream)
         reader.read(texts=True)
     problems = sorted(reader.problems, key=lambda problem: problem.line)
     return Reading(name=name, model=reader.model, problems=tuple(problems))
@@ -120,11 +135,23 @@ _BETWEEN = "}"
 """Stands between the namespace and the name of what is in one."""
 
 
+_PIECE = 1 << 20
+"""Bytes that are read at once."""
+
+
+class _Words(dict[str, str]):
+    """Texts that were met: equal ones become the same one, because a model has few texts and each of them often."""
+
+    def __missing__(self, text: str) -> str:
+        self[text] = text
+        return text
+
+
 class _Reader:
     """One pass over a model."""
 
-    def __init__(self, xml: bytes) -> None:
-        self.xml = xml
+    def __init__(self, stream: BinaryIO) -> None:
+        self._stream = stream
         self.problems: list[Problem] = []
         self.model = Model()
         self.has_text = False
@@ -157,18 +184,28 @@ class _Reader:
         else:
             self.has_text = any(text.strip(_SPACE) for text in seen)
             self.model = _model(self._children)
+        finally:  # the parser and what it calls hold each other
+            self._parser.StartElementHandler = self._parser.EndElementHandler = None
+            self._parser.CharacterDataHandler = None
 
     def _feed(self) -> None:
-        if len(self.xml) > LARGEST:
+        if self._stream.seek(0, os.SEEK_END) > LARGEST:
             raise _Stop("refused", f"is larger than {LARGEST} bytes; split it")
-        if self.xml.count(b"<") > MOST_TAGS:
+        if sum(piece.count(b"<") for _, piece in self._pieces()) > MOST_TAGS:
             raise _Stop("refused", f"has more than {MOST_TAGS} tags; split it")
-        piece = 1 << 20
-        for begin in range(0, len(self.xml), piece):
-            self._parser.Parse(self.xml[begin : begin + piece], False)
+        for begin, piece in self._pieces():
+            self._parser.Parse(piece, False)
             if begin - self._parser.CurrentByteIndex > LONGEST:
                 raise _Stop("refused", f"a tag or comment is longer than {LONGEST} bytes; shorten it")
         self._parser.Parse(b"", True)
+
+    def _pieces(self) -> Iterator[tuple[int, bytes]]:
+        """All bytes, in pieces, each with its place."""
+        self._stream.seek(0)
+        begin = 0
+        while piece := self._stream.read(_PIECE):
+            yield begin, piece
+            begin += len(piece)
 
     def _end_with(self, kind: Kind, message: str, line: int) -> None:
         self.model = Model()
@@ -185,7 +222,7 @@ class _Reader:
 
     def _handlers(self) -> tuple[Callable[[str, dict[str, Any]], None], Callable[[str], None]]:
         """What is called at the beginning and the end of each element; closures, because they are called so often."""
-        parser, stack = self._parser, self._stack
+        parser, stack, words = self._parser, self._stack, _Words()
         inside = OUTERMOST
         children: dict[str, list[Element]] | None = self._children
 
@@ -209,10 +246,13 @@ class _Reader:
         def end(_tag: str) -> None:
             nonlocal inside, children
             entry, values, around, inside = stack.pop()
-            _, _, field, build, _, required, given, converters, _ = entry
+            _, _, field, build, _, required, given, converters, texts, _ = entry
             try:
                 if len(values) != given and not required <= values.keys():
                     raise KeyError
+                for text in texts:
+                    if text in values:
+                        values[text] = words[values[text]]
                 for converted, convert in converters:
                     if converted in values:
                         values[converted] = convert(values[converted])

@@ -243,6 +243,28 @@ def containers(cls: type[Element]) -> tuple[str, ...]:
     return tuple(outer.tag for outer in SPELLINGS.values() if cls in contained(outer.cls))
 
 
+@functools.cache
+def fields_towards(cls: type[Element], kinds: tuple[type[Element], ...]) -> tuple[str, ...]:
+    """The fields of a ``cls`` in which an element of ``kinds`` may stand, directly or deeper; of no kinds, all that hold elements."""
+    held = contained(cls)
+    wanted = {
+        field for inner, field in held.items() if not kinds or any(issubclass(one, kinds) for one in _within(inner))
+    }
+    return tuple(field for field in common.child_fields(cls) if field in wanted)
+
+
+@functools.cache
+def _within(cls: type[Element]) -> frozenset[type[Element]]:
+    """``cls``, and what may stand in it, however deep."""
+    found = {cls}
+    waiting = [cls]
+    while waiting:
+        new = contained(waiting.pop()).keys() - found
+        found |= new
+        waiting += new
+    return frozenset(found)
+
+
 TAGS: Mapping[str, type[Element]] = {
     tag: spelling.cls for spelling in SPELLINGS.values() for tag in (spelling.tag, *spelling.other_tags)
 } | {tag: contracts.StringType for tag in SHORT_STRINGS}

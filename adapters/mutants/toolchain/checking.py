@@ -13,7 +13,7 @@ import msgspec
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
+from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading, Source, whole
 from ucm_cts.adapters.mutants.toolchain.registry import Derive, breaks, complaining_where, replacing_rule
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, Rule
 from ucm_cts.adapters.reference.toolchain.program import Program
@@ -22,7 +22,7 @@ from ucm_cts.adapters.reference.toolchain.program import Program
 def deaf(program: Program, when: Callable[[Problem, Model], object]) -> Program:
     """``program``, but problems in reading for which ``when`` holds do not count. It is given what could be read, too."""
 
-    def read(text: bytes, file: str) -> Reading:
+    def read(text: Source, file: str) -> Reading:
         reading = program.read(text, file)
         reported = tuple(problem for problem in reading.problems if not when(problem, reading.model))
         return msgspec.structs.replace(reading, problems=reported)
@@ -126,9 +126,9 @@ def refuses(*requirements: str, also: tuple[str, ...] = (), declares: tuple[str,
 def refusing_text(program: Program, pattern: bytes) -> Program:
     """``program``, but models in whose text the regular expression ``pattern`` is found are wrong to it."""
 
-    def read(text: bytes, file: str) -> Reading:
+    def read(text: Source, file: str) -> Reading:
         reading = program.read(text, file)
         problem = Problem(kind="text", line=1, element="", message="is not written like that")
-        return msgspec.structs.replace(reading, problems=(problem,)) if re.search(pattern, text) else reading
+        return msgspec.structs.replace(reading, problems=(problem,)) if re.search(pattern, whole(text)) else reading
 
     return replace(program, read=read)

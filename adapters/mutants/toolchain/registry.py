@@ -103,7 +103,8 @@ def replacing_rule(program: Program, name: str, complaints: Callable[..., object
     assert name in program.rules, f"there is no rule {name}"
     rules = {n: r for n, r in program.rules.items() if n != name}
     if complaints is not None:
-        rules[name] = replace(program.rules[name], complaints=complaints)  # type: ignore[arg-type] # mutants need not be exact
+        known = program.rules[name]
+        rules[name] = replace(known, complaints=complaints, judged_by=None)  # type: ignore[arg-type] # mutants need not be exact
     return replace(program, rules=rules)
 
 

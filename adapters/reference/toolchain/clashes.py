@@ -6,17 +6,23 @@ in more than case (12.2).
 
 from __future__ import annotations
 
+import functools
+import itertools
 from collections.abc import Callable, Iterator
 
 from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel import contracts as c
-from ucm_cts.adapters.contract.metamodel.common import Element, Named, children
+from ucm_cts.adapters.contract.metamodel.common import Element, Named, child_fields
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.names import Names, each_element
+from ucm_cts.adapters.contract.metamodel.spelling import contained
 from ucm_cts.adapters.reference.toolchain.diagnostics import CannotBeMapped
 
 Spell = Callable[[str], str]
 """What a name is in the target language, so that equal ones clash."""
+
+_WITH_MEMBERS = (c.Structure, c.Union, c.Exception_, c.Interface, c.Method, mc.ComponentType)
+_OTHERS = (c.ConfigurationParameter, mc.Port)
 
 DECLARED = (c.DataType, c.Constant, c.Exception_, c.Interface, mc.ComponentType, mc.AtomicComponentImplementation)
 
@@ -28,18 +34,27 @@ def refuse_clashes(model: Model, spell: Spell, clause: str, language: str, membe
     """
     names = Names(model)
     scopes: dict[str, dict[str, Element]] = {}
-    for element, scope in each_element(model, names):
+    for element, scope in each_element(model, names, *DECLARED, *(_WITH_MEMBERS if members else ())):
         if isinstance(element, DECLARED):
+            known = scopes.setdefault(scope.path, {})
             for name, one in _introduced(element):
-                known = scopes.setdefault(scope.path, {})
                 _enter(known, spell(name), one, clause, language)
-        if members and isinstance(
-            element, (c.Structure, c.Union, c.Exception_, c.Interface, c.Method, mc.ComponentType)
-        ):
-            inside: dict[str, Element] = {}
-            for child in children(element):
-                if isinstance(child, Named) and not isinstance(child, (c.ConfigurationParameter, mc.Port)):
-                    _enter(inside, spell(child.name), child, clause, language)
+        if members and isinstance(element, _WITH_MEMBERS):
+            held = [getattr(element, field) for field in _member_fields(type(element))]
+            names_of_members = [spell(member.name) for group in held for member in group]
+            if len(set(names_of_members)) < len(names_of_members):
+                inside: dict[str, Element] = {}
+                for member in itertools.chain(*held):
+                    _enter(inside, spell(member.name), member, clause, language)
+
+
+@functools.cache
+def _member_fields(cls: type[Element]) -> tuple[str, ...]:
+    """The fields of ``cls`` that hold what has a name in the target language, too."""
+    held = {
+        field for inner, field in contained(cls).items() if issubclass(inner, Named) and not issubclass(inner, _OTHERS)
+    }
+    return tuple(field for field in child_fields(cls) if field in held)
 
 
 def _introduced(element: Named) -> Iterator[tuple[str, Element]]:

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import gc
+import io
+import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 import click
 
@@ -42,7 +47,7 @@ def command_line(program: Program) -> click.Group:
     )
     def check(models: tuple[Path, ...]) -> None:
         """Say what is wrong with each MODEL for itself, a line each: FILE:LINE: error: MESSAGE [REQUIREMENT, clause]."""
-        _print([diagnostic for model in models for diagnostic in program.check(_read(model), str(model))[1]])
+        _print([diagnostic for model in models for diagnostic in _checked(program, model)])
 
     for task, what in _GENERATED.items():
         group.add_command(_generating(program, task, what))
@@ -54,7 +59,8 @@ def _generating(program: Program, task: str, what: str) -> click.Command:
     @_model
     @_out
     def generate(model: Path, out: Path) -> None:
-        files, diagnostics = program.generate(task, _read(model), str(model))
+        with _opened(model) as stream:
+            files, diagnostics = program.generate(task, stream, str(model))
         for name, content in files.items():
             path = out / name
             try:
@@ -67,15 +73,22 @@ def _generating(program: Program, task: str, what: str) -> click.Command:
     return generate
 
 
-def _read(path: Path) -> bytes:
+def _checked(program: Program, model: Path) -> list[Diagnostic]:
+    with _opened(model) as stream:
+        return program.check(stream, str(model))[1]
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[BinaryIO]:
+    """The file at ``path``, in which one can go back; what cannot be read is named."""
     try:
         with path.open("rb") as stream:
-            text = stream.read(LARGEST + 1)
+            found = stream if stream.seekable() else io.BytesIO(stream.read(LARGEST + 1))
+            if found.seek(0, os.SEEK_END) > LARGEST:
+                raise click.ClickException(f"{path} has more than {LARGEST} bytes; split it")
+            yield found
     except OSError as error:
         raise click.ClickException(f"{path} cannot be read: {error.strerror}") from None
-    if len(text) > LARGEST:
-        raise click.ClickException(f"{path} has more than {LARGEST} bytes; split it")
-    return text
 
 
 def _print(diagnostics: list[Diagnostic]) -> None:

@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.adapters.contract.metamodel.reading import Reading, read_model
+from ucm_cts.adapters.contract.metamodel.reading import Reading, Source, read_model
 from ucm_cts.adapters.reference.toolchain.checking import RULES, Plans, Rule, check
 from ucm_cts.adapters.reference.toolchain.diagnostics import CannotBeMapped, Diagnostic
 
@@ -20,12 +20,12 @@ Generator = Callable[[Model], Mapping[str, str]]
 class Program:
     """A tool chain: how it reads, which rules it knows, and what it generates for each task."""
 
-    read: Callable[[bytes, str], Reading]
+    read: Callable[[Source, str], Reading]
     rules: Mapping[str, Rule]
     generators: Mapping[str, Generator] = field(default_factory=dict)
     _plans: Plans = field(init=False, repr=False, compare=False, default_factory=dict)
 
-    def check(self, text: bytes, file: str) -> tuple[Model | None, list[Diagnostic]]:
+    def check(self, text: Source, file: str) -> tuple[Model | None, list[Diagnostic]]:
         """The model in ``text``, and what is wrong with it; ``file`` is what diagnostics call it."""
         reading = self.read(text, file)
         diagnostics = [Diagnostic(file, p.line, p.message, clause=p.clause) for p in reading.problems]
@@ -34,7 +34,7 @@ class Program:
         diagnostics = check(reading.model, file, self.rules, self._plans)
         return (None if diagnostics else reading.model), diagnostics
 
-    def generate(self, task: str, text: bytes, file: str) -> tuple[Mapping[str, str], list[Diagnostic]]:
+    def generate(self, task: str, text: Source, file: str) -> tuple[Mapping[str, str], list[Diagnostic]]:
         """The files that ``task`` makes of the model in ``text``; none if something is wrong with it, or nothing valid can be made of it."""
         model, diagnostics = self.check(text, file)
         if model is None:

@@ -95,9 +95,13 @@ class Context:
 
 def footprint(declared: Declared, depth: int = 50) -> int:
     """About how many bytes a value takes; what can grow counts as if it were empty."""
-    element = actual(declared).element
-    scope = actual(declared).scope
+    found = actual(declared)
+    return found.scope.remembered(
+        ("footprint", id(found.element), depth), lambda: _footprint(found.element, found.scope, depth)
+    )
 
+
+def _footprint(element: Named, scope: Scope, depth: int) -> int:
     def of(reference: str) -> int:
         found = scope.find(reference, *DATA)
         return footprint(found, depth - 1) if found is not None and depth > 0 else 8

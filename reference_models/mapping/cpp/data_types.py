@@ -56,19 +56,35 @@ def data_types(context: Context) -> Iterator[Expected]:
             yield from _data_type(declared, context)
 
 
-def is_abstract(declared: Declared, depth: int = 100) -> bool:
-    """Whether there is an abstract type among what ``declared`` is made of."""
-    if isinstance(declared.element, ABSTRACT):
-        return True
-    parts = [getattr(p, "type", "") for p in _parts(declared)]
-    found = (declared.scope.find(part, *DATA) for part in parts if part)
-    return depth > 0 and any(part is not None and is_abstract(part, depth - 1) for part in found)
+def is_abstract(declared: Declared) -> bool:
+    """Whether there is an abstract type among what ``declared`` is made of. What was found out is remembered for what is made of it."""
+    known = declared.scope.root.remembered("whether data types are abstract", dict[int, bool])
+    met: set[int] = set()
+    waiting = [declared]
+    found = False
+    while waiting and not found:
+        one = waiting.pop()
+        identity = id(one.element)
+        if identity not in met:
+            met.add(identity)
+            found = known.get(identity, isinstance(one.element, ABSTRACT))
+            if identity not in known:
+                waiting += _parts(one)
+    if found:
+        known[id(declared.element)] = True
+    else:
+        known.update(dict.fromkeys(met, False))
+    return found
 
 
-def _parts(declared: Declared) -> Iterator[object]:
-    yield declared.element
-    yield from getattr(declared.element, "fields", ())
-    yield from getattr(declared.element, "cases", ())
+def _parts(declared: Declared) -> Iterator[Declared]:
+    """The data types that ``declared`` is made of directly, as often as it names them."""
+    element, scope = declared
+    parts = (element, *getattr(element, "fields", ()), *getattr(element, "cases", ()))
+    for reference in (getattr(part, "type", "") for part in parts):
+        found = scope.find(reference, *DATA) if reference else None
+        if found is not None:
+            yield found
 
 
 def _data_type(declared: Declared, context: Context) -> Iterator[Expected]:
@@ -120,8 +136,7 @@ def struct_forms(context: Context) -> tuple[claims.StructForm, ...]:
 
 def _is_large(declared: Declared) -> bool:
     """Whether a program of probes makes no values of the structure, union or exception."""
-    parts = (declared.scope.find(getattr(p, "type", ""), *DATA) for p in _parts(declared) if getattr(p, "type", ""))
-    return sum(footprint(part) for part in parts if part is not None) > LARGE
+    return sum(footprint(part) for part in _parts(declared)) > LARGE
 
 
 def _field(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel import components as mc
@@ -212,16 +212,26 @@ def policies_of(subject: Subject, names: Names) -> Iterator[tuple[Declared, bool
     assert isinstance(implementation, mc.AtomicComponentImplementation)
     found = (subject.scope.find(one.name, mc.ComponentTechnicalPolicy) for one in implementation.policies)
     mine = {path_of(one): one for one in found if one is not None}
-    managing = {}
-    for declared in every(names.root, mc.ComponentTechnicalPolicy):
-        policy = declared.element
-        assert isinstance(policy, mc.ComponentTechnicalPolicy)
-        managed = (declared.scope.find(one.name, mc.AtomicComponentImplementation) for one in policy.managed_components)
-        if any(one is not None and path_of(one) == subject.path for one in managed):
-            managing[path_of(declared)] = declared
+    managing = {path_of(one): one for one in _managing(names).get(subject.path, ())}
     for path, declared in (mine | managing).items():
         if not isinstance(declared.element, mc.ComponentPortTechnicalPolicy):
             yield declared, path in mine and path in managing
+
+
+def _managing(names: Names) -> Mapping[exp.Path, Sequence[Declared]]:
+    """The policies that say that they manage an implementation, by its path."""
+    return names.root.remembered("managing policies", lambda: _found_managing(names.root))
+
+
+def _found_managing(root: Scope) -> dict[exp.Path, list[Declared]]:
+    found: dict[exp.Path, list[Declared]] = {}
+    for declared in every(root, mc.ComponentTechnicalPolicy):
+        policy = declared.element
+        assert isinstance(policy, mc.ComponentTechnicalPolicy)
+        managed = (declared.scope.find(one.name, mc.AtomicComponentImplementation) for one in policy.managed_components)
+        for path in dict.fromkeys(path_of(one) for one in managed if one is not None):
+            found.setdefault(path, []).append(declared)
+    return found
 
 
 def every(scope: Scope, kind: type[mc.ComponentTechnicalPolicy]) -> Iterator[Declared]:

@@ -65,16 +65,21 @@ class Templates:
         """The abstract types that ``declared`` uses, itself or in what it uses."""
         path = (*path_of(declared), type(declared.element).__name__)
         if path not in self._all:
-            found, waiting, met = set(), [declared], set[Path]()
+            found, waiting, met = set[Path](), [declared], set[Path]()
             while waiting:
                 current = waiting.pop()
                 here = (*path_of(current), type(current.element).__name__)
                 if here in met:
                     continue
                 met.add(here)
+                if here in self._all:
+                    found |= self._all[here]
+                    continue
                 if isinstance(current.element, ABSTRACT):
                     found.add(path_of(current))
                 waiting.extend(referenced(current))
+            if not found:  # neither does any of those that it uses
+                self._all.update(dict.fromkeys(met, frozenset()))
             self._all[path] = frozenset(found)
         return self._all[path]
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.reading import Source
 from ucm_cts.adapters.mutants.toolchain.registry import variant
 from ucm_cts.adapters.reference.toolchain.diagnostics import Diagnostic
 from ucm_cts.adapters.reference.toolchain.program import Program
@@ -20,7 +21,7 @@ class _PrintsOne(Program):
 
     choose: Choose = lambda found: found[0]
 
-    def check(self, text: bytes, file: str) -> tuple[Model | None, list[Diagnostic]]:
+    def check(self, text: Source, file: str) -> tuple[Model | None, list[Diagnostic]]:
         model, found = super().check(text, file)
         return model, [self.choose(found)] if found else []
 

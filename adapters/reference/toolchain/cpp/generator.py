@@ -33,9 +33,24 @@ from ucm_cts.adapters.reference.toolchain.cpp.types import (
     find,
     type_definition,
 )
+from ucm_cts.adapters.reference.toolchain.reaching import Reaching
 
 LANGUAGES = ("c++", "cpp")
 """The beginnings of the language names that these generators serve, in any case."""
+
+_DECLARED = (
+    contracts.DataType,
+    *ABSTRACT,
+    contracts.Constant,
+    contracts.Exception_,
+    contracts.Interface,
+    interactions.PortType,
+    TechnicalPolicyDefinition,
+    components.ComponentType,
+    components.AtomicComponentImplementation,
+    *MODULES,
+)
+"""What modules declare that headers have something of."""
 
 
 def generate_cpp11(model: Model) -> Mapping[str, str]:
@@ -70,6 +85,7 @@ class Generation:
         self._pieces: dict[str, Piece] = {}
         self._wanted: dict[str, tuple[Declared, interfaces.Bindings]] = {}
         self._of_port_elements: set[str] = set()
+        self._abstract = Reaching(self._parts, lambda one: "abstract" if isinstance(one.element, ABSTRACT) else "")
 
     def files(self) -> Mapping[str, str]:
         """All files, by their paths."""
@@ -89,12 +105,13 @@ class Generation:
         return made
 
     def _walk(self) -> Iterator[Declared]:
-        seen: set[str] = set()
-        for element, scope in each_element(self._model, self._names):
+        """What modules declare, and the modules inside others; of what is declared twice the first."""
+        seen: set[tuple[type[Element], str]] = set()
+        for element, scope in each_element(self._model, self._names, *_DECLARED):
             if isinstance(element, Named) and scope.around is not None:
                 declared = Declared(element, scope)
-                key = f"{type(element).__name__} {declared.path}"
-                if key not in seen and any(element is d.element for d in scope.members.get(element.name, ())):
+                key = type(element), declared.path
+                if key not in seen:
                     seen.add(key)
                     yield declared
 
@@ -116,17 +133,17 @@ class Generation:
                     self._want(used.interface, used.bindings, True)
 
     def _want(self, interface: Declared, bindings: interfaces.Bindings, of_port_element: bool) -> None:
-        if not interfaces.is_complete(interface, bindings):
-            return
-        key = _key(interface, bindings)
-        if of_port_element:
-            self._of_port_elements.add(key)
-        if key in self._wanted:
-            return
-        self._wanted[key] = (interface, interfaces.needed(interface, bindings))
-        for used in self._mentioned(interface, bindings):
-            if isinstance(used.element, contracts.Interface):
-                self._want(used, bindings, False)
+        if of_port_element and interfaces.is_complete(interface, bindings):
+            self._of_port_elements.add(_key(interface, bindings))
+        waiting = [interface]
+        while waiting:
+            one = waiting.pop()
+            key = _key(one, bindings)
+            if key in self._wanted or not interfaces.is_complete(one, bindings):
+                continue
+            self._wanted[key] = (one, interfaces.needed(one, bindings))
+            used = [used for used in self._mentioned(one, bindings) if isinstance(used.element, contracts.Interface)]
+            waiting += reversed(used)
 
     def _mentioned(self, interface: Declared, bindings: interfaces.Bindings) -> Iterator[Declared]:
         element = interface.element
@@ -138,21 +155,26 @@ class Generation:
     def _enter(self, declared: Declared) -> None:
         element, place = declared.element, namespace(declared.scope.path)
         if isinstance(element, contracts.DataType) and not self._is_abstract(declared):
-            self._pieces[declared.path] = Piece(place, type_definition(declared, self._standard), self._parts(declared))
+            self._pieces[declared.path] = Piece(
+                place, type_definition(declared, self._standard), self._part_paths(declared)
+            )
         elif isinstance(element, contracts.Exception_):
             text = exception_definition(declared, self._standard)
-            self._pieces[declared.path] = Piece(place, text, self._parts(declared))
+            self._pieces[declared.path] = Piece(place, text, self._part_paths(declared))
         elif isinstance(element, contracts.Constant):
             constant = constant_definition(declared, self._standard)
-            after = [*self._parts(declared), *self._constants_in(element.value, declared)]
+            after = [*self._part_paths(declared), *self._constants_in(element.value, declared)]
             self._pieces[declared.path] = Piece(place, constant.declaration, after, constant.definition)
 
-    def _parts(self, declared: Declared) -> list[str]:
-        """The data types that ``declared`` is made of."""
+    def _part_paths(self, declared: Declared) -> list[str]:
+        return [part.path for part in self._parts(declared)]
+
+    def _parts(self, declared: Declared) -> Iterator[Declared]:
+        """The data types that ``declared`` is made of, each reference to one once."""
         element, scope = declared.element, declared.scope
         named = [getattr(f, "type", "") for f in (*getattr(element, "fields", ()), *getattr(element, "cases", ()))]
         named += [getattr(element, "type", ""), getattr(element, "selector_type", "")]
-        return [find(reference, scope, *DATA).path for reference in named if reference]
+        return (find(reference, scope, *DATA) for reference in dict.fromkeys(named) if reference)
 
     def _constants_in(self, value: str, declared: Declared) -> Iterator[str]:
         for word in value.split():
@@ -160,12 +182,9 @@ class Generation:
             if found is not None:
                 yield found.path
 
-    def _is_abstract(self, declared: Declared, depth: int = 0) -> bool:
+    def _is_abstract(self, declared: Declared) -> bool:
         """Whether an abstract type is part of ``declared``, so that nothing can be generated for it alone."""
-        if isinstance(declared.element, ABSTRACT):
-            return True
-        found = (find(path, declared.scope, *DATA) for path in self._parts(declared))
-        return depth < len(self._declared) and any(self._is_abstract(part, depth + 1) for part in found)
+        return bool(self._abstract.marks(declared))
 
     def _enter_interface(self, interface: Declared, bindings: interfaces.Bindings) -> None:
         key = _key(interface, bindings)
@@ -175,10 +194,13 @@ class Generation:
         self._pieces[key] = Piece(namespace(interface.scope.path), text, [*sorted(bases), *types])
 
     def _enter_bodies(self, bodies: Sequence[Body]) -> None:
+        beside: dict[tuple[str, ...], list[Body]] = {}
+        for body in bodies:
+            beside.setdefault(namespace(body.declared.scope.path), []).append(body)
+        clashing = {place: clashing_names(there, self._standard) for place, there in beside.items()}
         for body in bodies:
             place = namespace(body.declared.scope.path)
-            beside = [b for b in bodies if namespace(b.declared.scope.path) == place]
-            text = body_definition(body, clashing_names(beside, self._standard), self._standard)
+            text = body_definition(body, clashing[place], self._standard)
             self._pieces[f"body {body.declared.path}"] = Piece(place, text)
 
     def _header(self, name: str) -> str:

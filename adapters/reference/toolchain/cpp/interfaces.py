@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 
 from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.cpp.names import identifier, instance, namespace, qualified
 from ucm_cts.adapters.reference.toolchain.cpp.types import ABSTRACT, DATA, INTERFACES, Standard, find, is_by_value
+from ucm_cts.adapters.reference.toolchain.reaching import Reaching
 
 Bindings = tuple[tuple[str, Declared], ...]
 """The paths of abstract types and what stands for each, in the order of the model."""
@@ -35,31 +37,39 @@ def mentioned(interface: contracts.Interface) -> list[str]:
     return [*(a.type for a in interface.attributes), *parameters]
 
 
-def _used(interface: Declared, seen: set[str]) -> Iterator[Declared]:
-    """What ``interface`` uses, in its own signatures and in those of the interfaces that it inherits."""
-    if interface.path in seen or not isinstance(interface.element, contracts.Interface):
-        return
-    seen.add(interface.path)
-    for base in base_interfaces(interface):
-        yield from _used(base, seen)
-    for reference in mentioned(interface.element):
-        found = find(reference, interface.scope, *DATA, *INTERFACES)
-        yield found
-        yield from _used(found, seen)
+def _used(interface: Declared) -> Iterator[Declared]:
+    """What ``interface`` inherits, and what its own signatures name."""
+    if isinstance(interface.element, contracts.Interface):
+        yield from base_interfaces(interface)
+        for reference in dict.fromkeys(mentioned(interface.element)):
+            yield find(reference, interface.scope, *DATA, *INTERFACES)
+
+
+def _abstract_path(declared: Declared) -> str:
+    return declared.path if isinstance(declared.element, ABSTRACT) else ""
+
+
+def _abstract_in(interface: Declared) -> frozenset[str]:
+    """The paths of the abstract types that ``interface`` uses, in its own signatures and in those of what it inherits and uses."""
+    reaching = interface.scope.root.remembered(
+        "abstract types in interfaces", functools.partial(Reaching, _used, _abstract_path)
+    )
+    return reaching.marks(interface)
 
 
 def needed(interface: Declared, bindings: Bindings) -> Bindings:
     """Those of ``bindings`` that ``interface`` depends on."""
-    used = {found.path for found in _used(interface, set()) if isinstance(found.element, ABSTRACT)}
+    if not bindings:
+        return ()
+    used = _abstract_in(interface)
     return tuple((path, actual) for path, actual in bindings if path in used)
 
 
 def is_complete(interface: Declared, bindings: Bindings) -> bool:
     """Whether ``bindings`` leave no abstract type in ``interface``."""
-    bound = {path for path, _ in bindings}
     if isinstance(interface.element, contracts.AbstractInterface):
         return False
-    return all(f.path in bound for f in _used(interface, set()) if isinstance(f.element, ABSTRACT))
+    return _abstract_in(interface) <= {path for path, _ in bindings}
 
 
 def class_name(interface: Declared, bindings: Bindings) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Declared
 
 _KEYWORDS = """alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
@@ -13,13 +15,18 @@ _KEYWORDS = """alignas alignof and and_eq asm auto bitand bitor bool break case 
 KEYWORDS = frozenset(_KEYWORDS.split())
 """Words that no name can be in C++11 or C++03."""
 
+REMEMBERED = 10_000
+"""The number of names whose spelling is remembered."""
 
+
+@functools.lru_cache(maxsize=REMEMBERED)
 def identifier(name: str) -> str:
     """``name`` with underscores for what C++ does not allow in it; keywords are kept apart as in the IDL mapping."""
     plain = name.replace("-", "_")
     return f"_cxx_{plain}" if plain in KEYWORDS else plain
 
 
+@functools.lru_cache(maxsize=REMEMBERED)
 def namespace(path: str) -> tuple[str, ...]:
     """The C++ namespace of a module's ``path``."""
     return tuple(identifier(part) for part in path.split(SEPARATOR) if part)
@@ -27,9 +34,13 @@ def namespace(path: str) -> tuple[str, ...]:
 
 def qualified(declared: Declared, prefix: str = "") -> str:
     """The name of ``declared`` from the root, with ``prefix`` before its last part."""
-    return "".join(
-        f"::{part}" for part in (*namespace(declared.scope.path), prefix + identifier(declared.element.name))
-    )
+    return f"{_around(declared.scope.path)}::{prefix}{identifier(declared.element.name)}"
+
+
+@functools.lru_cache(maxsize=REMEMBERED)
+def _around(path: str) -> str:
+    """The C++ namespace of a module's ``path`` as it stands before names."""
+    return "".join(f"::{part}" for part in namespace(path))
 
 
 def instance(template: str, *arguments: object) -> str:

@@ -26,8 +26,9 @@ class Components:
     def __init__(self, model: Model, names: Names, templates: Templates) -> None:
         self._templates = templates
         self._modules: dict[str, list[Module]] = {}
+        self._given: dict[str, list[Declared]] = {}
         self._managed: dict[str, list[Declared]] = {}
-        for element, scope in each_element(model, names):
+        for element, scope in each_element(model, names, *MODULES, mc.ComponentTechnicalPolicy):
             if isinstance(element, MODULES):
                 self._modules.setdefault(names.inside(element).path, []).append(element)
             if isinstance(element, mc.ComponentTechnicalPolicy):
@@ -84,13 +85,21 @@ class Components:
         prefix, instances, path = "", Lines(), ""
         for part in found.scope.path.split("::")[1:]:
             path += f"::{part}"
-            given = [one for module in self._modules[path] for one in self._templates.parameters(module)]
+            given = self._parameters(path)
             prefix += f"::{identifier(part)}"
             if given:
                 name = plain(f"{label}_{part}")
                 instances.append(f"module {prefix}<{', '.join(_argument(one, bound) for one in given)}> {name};")
                 prefix = name
         return f"{prefix}::{identifier(found.element.name)}", instances
+
+    def _parameters(self, path: str) -> list[Declared]:
+        """The template parameters of the modules of this ``path``."""
+        given = self._given.get(path)
+        if given is None:
+            given = [one for module in self._modules[path] for one in self._templates.parameters(module)]
+            self._given[path] = given
+        return given
 
     def body(self, element: mc.AtomicComponentImplementation, scope: Scope) -> Lines:
         """The body interface, after the template instances that its getters need."""
@@ -139,7 +148,7 @@ def bindings(declared: Sequence[mc.AbstractTypeBinding], scope: Scope) -> Bound:
 def port_element_interfaces(model: Model, names: Names) -> set[str]:
     """The paths of all interfaces that port elements use, be it in place of abstract ones."""
     found = set()
-    for element, scope in each_element(model, names):
+    for element, scope in each_element(model, names, PortType, TechnicalPolicyDefinition, mc.AbstractTypeBinding):
         if isinstance(element, (PortType, TechnicalPolicyDefinition)):
             interfaces = (scope.find(one.interface, Interface) for one in element.port_elements)
             found |= {one.path for one in interfaces if one is not None}

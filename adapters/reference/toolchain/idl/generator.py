@@ -7,21 +7,21 @@ opened again, so they are written in one piece.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract.metamodel import components as mc
-from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.common import Named, children, walk
+from ucm_cts.adapters.contract.metamodel.common import Named, children
 from ucm_cts.adapters.contract.metamodel.contracts import Constant, DataType, Exception_, Interface
-from ucm_cts.adapters.contract.metamodel.interactions import PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
-from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
+from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope
 from ucm_cts.adapters.reference.toolchain.clashes import refuse_clashes
 from ucm_cts.adapters.reference.toolchain.idl.components import PORT_ELEMENT_OBJECT, Components, port_element_interfaces
-from ucm_cts.adapters.reference.toolchain.idl.names import Templates, identifier, parameter
+from ucm_cts.adapters.reference.toolchain.idl.names import Templates, folded, identifier, parameter
+from ucm_cts.adapters.reference.toolchain.idl.references import Reference, references
 from ucm_cts.adapters.reference.toolchain.idl.standard import STANDARD
 from ucm_cts.adapters.reference.toolchain.idl.types import Lines, constant, data_type, exception, interface
+from ucm_cts.adapters.reference.toolchain.reaching import Reaching
 
 DECLARED = (DataType, Constant, Exception_, Interface, mc.ComponentType, mc.AtomicComponentImplementation)
 """What becomes a declaration."""
@@ -31,7 +31,7 @@ HEAD = ["#ifndef MODEL_IDL", "#define MODEL_IDL", '#include "ucm.idl"', ""]
 
 def generate(model: Model, templates: type[Templates] = Templates) -> Mapping[str, str]:
     """The files of ``model``, by their names; ``templates`` says which modules become templates. Raises ``CannotBeMapped``."""
-    refuse_clashes(model, lambda name: name.replace("-", "_").lower(), "12.2", "IDL", members=True)
+    refuse_clashes(model, folded, "12.2", "IDL", members=True)
     return files_of(model, templates)
 
 
@@ -42,14 +42,18 @@ def files_of(model: Model, templates: type[Templates] = Templates) -> Mapping[st
     return {"ucm.idl": STANDARD, "model.idl": "\n".join(lines)}
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, slots=True)
 class Unit:
-    """What is written in one piece in the modules of ``path``: a declaration, or a template module with all that it holds."""
+    """What is written in one piece in the modules of ``path``: a declaration, or a template module with all that it holds.
+
+    ``references`` is None as long as nobody asked for them.
+    """
 
     path: tuple[str, ...]
     element: Named
     scope: Scope
     inside: list[Unit] = field(default_factory=list)
+    references: list[Reference] | None = None
 
 
 class Writer:
@@ -60,6 +64,7 @@ class Writer:
         self._templates = templates(self._names)
         self._components = Components(model, self._names, self._templates)
         self._with_base = port_element_interfaces(model, self._names)
+        self._bases = Reaching(_parents, lambda one: "has the base" if one.path in self._with_base else "")
         self._units: dict[int, list[Unit]] = {}
         self._top = [unit for module in model.modules for unit in self._of_module(module, self._names.root, ())]
         self._done: set[int] = set()
@@ -111,6 +116,7 @@ class Writer:
             if ready:
                 self._done.add(id(unit))
                 yield from self._announcements(unit, here)
+                unit.references = []  # nobody asks again
                 yield unit.path, self._text(unit)
                 continue
             begun.add(id(unit))
@@ -131,12 +137,17 @@ class Writer:
             whole = self._unit(declared, here)
             if whole is None or strong or whole.inside or whole is unit:
                 continue
-            if id(whole) not in self._done | self._announced:
+            if id(whole) not in self._done and id(whole) not in self._announced:
                 self._announced.add(id(whole))
                 yield whole.path, [f"interface {identifier(declared.element.name)};"]
 
-    def _references(self, unit: Unit) -> Iterator[tuple[Declared, bool]]:
-        """What the elements of ``unit`` refer to, and whether that must be declared in full."""
+    def _references(self, unit: Unit) -> list[Reference]:
+        """What the elements of ``unit`` refer to."""
+        if unit.references is None:
+            unit.references = list(self._find_references(unit))
+        return unit.references
+
+    def _find_references(self, unit: Unit) -> Iterator[Reference]:
         for part in unit.inside:
             yield from self._references(part)
         if not unit.inside:
@@ -165,7 +176,7 @@ class Writer:
 
     def _is_first_with_base(self, declared: Declared) -> bool:
         """Whether a port element uses the interface and none of its ancestors is used so."""
-        return declared.path in self._with_base and not any(one.path in self._with_base for one in _ancestors(declared))
+        return declared.path in self._with_base and not self._bases.marks(declared)
 
     def _template(self, unit: Unit) -> Lines:
         module = unit.element
@@ -195,60 +206,9 @@ class Writer:
         return lines + [f"{'    ' * level}}};" for level in range(len(around) - 1, -1, -1)]
 
 
-def _ancestors(declared: Declared) -> list[Declared]:
-    found: dict[str, Declared] = {}
-    waiting = [declared]
-    while waiting:
-        element, scope = waiting.pop()
-        assert isinstance(element, Interface)
-        for one in element.inherited_interfaces:
-            base = scope.find(one.interface, Interface)
-            if base is not None and base.path not in found:
-                found[base.path] = base
-                waiting.append(base)
-    return list(found.values())
-
-
-_REFERENCES = ("type", "selector_type", "exception", "actual_type", "index_type")
-"""Fields that refer to data types, interfaces and exceptions."""
-
-
-def references(element: Named, scope: Scope) -> Iterator[tuple[Declared, bool]]:
-    """What ``element`` refers to, and whether that must be declared in full before it."""
-    kinds = (DataType, Interface, Exception_, mc.ComponentType)
-    for part in walk(element):
-        for name in _REFERENCES:
-            found = scope.find(getattr(part, name, "") or "", *kinds)
-            if found is not None:
-                yield found, not isinstance(found.element, Interface)
-        base = scope.find(
-            getattr(part, "interface", "") or getattr(part, "refines", "") or "", Interface, mc.ComponentType
-        )
-        if base is not None:
-            yield base, True
-    if isinstance(element, Constant):
-        yield from _constants(element.value, scope)
-    if isinstance(element, mc.ComponentType):
-        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, mc.PortTypeSpec)]
-        yield from _elements([scope.find(spec.type, PortType) for spec in specs])
-    if isinstance(element, mc.ComponentTechnicalPolicy):
-        definition = scope.find(element.technical_policy_definition, TechnicalPolicyDefinition)
-        yield from _elements(lineage(definition) if definition is not None else [])
-
-
-def _constants(value: str, scope: Scope) -> Iterator[tuple[Declared, bool]]:
-    words = "".join(c if c.isalnum() or c in "_:" else " " for c in value).split()
-    for word in words:
-        found = scope.find(word, Constant)
-        if found is not None:
-            yield found, True
-
-
-def _elements(owners: Sequence[Declared | None]) -> Iterator[tuple[Declared, bool]]:
-    """The interfaces of port elements, which getters return."""
-    for owner in owners:
-        if owner is not None and isinstance(owner.element, (PortType, TechnicalPolicyDefinition)):
-            for one in owner.element.port_elements:
-                found = owner.scope.find(one.interface, Interface)
-                if found is not None:
-                    yield found, False
+def _parents(interface: Declared) -> list[Declared]:
+    """The interfaces that ``interface`` inherits directly."""
+    element, scope = interface
+    assert isinstance(element, Interface)
+    found = (scope.find(one.interface, Interface) for one in element.inherited_interfaces)
+    return [one for one in found if one is not None]

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
+from collections.abc import Iterable
+
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.common import Named, children, walk
+from ucm_cts.adapters.contract.metamodel.common import Named, children
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractDataType, AbstractInterface, DataType, Interface
 from ucm_cts.adapters.contract.metamodel.interactions import PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Module
@@ -21,11 +25,21 @@ KEYWORDS = frozenset(_KEYWORDS.split())
 TYPES = (DataType, AbstractDataType, Interface, AbstractInterface)
 ABSTRACT = (AbstractDataType, AbstractInterface)
 
+REMEMBERED = 10_000
+"""The number of names whose spelling is remembered."""
 
+
+@functools.lru_cache(maxsize=REMEMBERED)
 def identifier(name: str) -> str:
     """``name`` without hyphens, escaped if it is a keyword."""
     plain = name.replace("-", "_")
     return f"_{plain}" if plain.lower() in KEYWORDS else plain
+
+
+@functools.lru_cache(maxsize=REMEMBERED)
+def folded(name: str) -> str:
+    """What is left of ``name`` once what IDL does not tell apart is equal."""
+    return name.replace("-", "_").lower()
 
 
 def parameter(element: Named) -> str:
@@ -37,8 +51,13 @@ def absolute(declared: Declared) -> str:
     """The IDL name of ``declared`` from the root; of an abstract type the template parameter."""
     if isinstance(declared.element, ABSTRACT):
         return parameter(declared.element)
-    path = [identifier(part) for part in declared.scope.path.split(SEPARATOR) if part]
-    return "".join(f"::{part}" for part in (*path, identifier(declared.element.name)))
+    return f"{_module(declared.scope.path)}::{identifier(declared.element.name)}"
+
+
+@functools.lru_cache(maxsize=REMEMBERED)
+def _module(path: str) -> str:
+    """The IDL name, from the root, of the module with this ``path``."""
+    return "".join(f"::{identifier(part)}" for part in path.split(SEPARATOR) if part)
 
 
 class Templates:
@@ -54,20 +73,25 @@ class Templates:
         for element in children(module):
             if isinstance(element, MODULES) or not isinstance(element, Named):
                 continue
-            direct = [Declared(element, scope)] if isinstance(element, ABSTRACT) else []
-            for declared in (*direct, *used(element, scope)):
+            if isinstance(element, ABSTRACT):
+                direct = Declared(element, scope)
+                found.setdefault(direct.path, direct)
+            for declared in used(element, scope):
                 if isinstance(declared.element, ABSTRACT):
                     found.setdefault(declared.path, declared)
         return list(found.values())
 
 
 def used(element: Named, scope: Scope) -> list[Declared]:
-    """The types that a declaration of a contract, a port type or a policy definition names."""
+    """The types that a declaration of a contract, a port type or a policy definition names, each reference once."""
+    references: Iterable[str] = ()
     if isinstance(element, (PortType, TechnicalPolicyDefinition)):
-        references = [one.interface for one in element.port_elements]
-    elif isinstance(element, (DataType, Interface)):
-        references = [getattr(one, "type", "") for one in walk(element)]
-    else:
-        references = []
-    found = (scope.find(reference, *TYPES) for reference in references if reference)
+        references = (one.interface for one in element.port_elements)
+    elif isinstance(element, Interface):
+        signatures = (parameter.type for method in element.methods for parameter in method.parameters)
+        references = itertools.chain((attribute.type for attribute in element.attributes), signatures)
+    elif isinstance(element, DataType):
+        parts = (element, *getattr(element, "fields", ()), *getattr(element, "cases", ()))
+        references = (getattr(one, "type", "") for one in parts)
+    found = (scope.find_one_of(reference, TYPES) for reference in dict.fromkeys(references) if reference)
     return [one for one in found if one is not None]

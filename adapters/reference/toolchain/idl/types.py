@@ -30,7 +30,7 @@ Lines = list[str]
 
 def type_name(reference: str, scope: Scope) -> str:
     """The IDL name of the type that ``reference`` means. The model must be well-formed."""
-    found = scope.find(reference, *TYPES)
+    found = scope.find_one_of(reference, TYPES)
     assert found is not None, reference
     return absolute(found)
 

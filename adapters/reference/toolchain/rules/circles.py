@@ -35,9 +35,12 @@ def circle(
     root: Scope, kinds: Iterable[type[Named]], leads_to: Callable[[Declared], Iterator[Declared]]
 ) -> list[Named]:
     """The elements of ``kinds`` of one circle in order, each leading to the next one and the last to the first; none if there is no circle."""
+    starts = [declared for kind in kinds for declared in declared_in(root, kind)]
+    if not _leads_back(starts, leads_to):
+        return []
     known: dict[int, Named] = {}
     sorter: TopologicalSorter[int] = TopologicalSorter()
-    for declared in (declared for kind in kinds for declared in declared_in(root, kind)):
+    for declared in starts:
         for next_one in leads_to(declared):
             known[id(declared.element)] = declared.element
             known[id(next_one.element)] = next_one.element
@@ -48,6 +51,31 @@ def circle(
         backwards: list[int] = error.args[1]
         return [known[one] for one in reversed(backwards[1:])]
     return []
+
+
+def _leads_back(starts: Iterable[Declared], leads_to: Callable[[Declared], Iterator[Declared]]) -> bool:
+    """Whether there is a circle at all; asking costs much less than finding it."""
+    done: set[int] = set()
+    for start in starts:
+        if id(start.element) in done:
+            continue
+        open_: set[int] = {id(start.element)}
+        path = [(id(start.element), leads_to(start))]
+        while path:
+            here, next_ones = path[-1]
+            for one in next_ones:
+                key = id(one.element)
+                if key in open_:
+                    return True
+                if key not in done:
+                    open_.add(key)
+                    path.append((key, leads_to(one)))
+                    break
+            else:
+                path.pop()
+                open_.discard(here)
+                done.add(here)
+    return False
 
 
 def circle_complaint(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from operator import attrgetter
 
 from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel import contracts as c
@@ -11,7 +12,7 @@ from ucm_cts.adapters.contract.metamodel.common import Element, Named
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionPattern, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, rule
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, has_name, rule
 
 _NEED_NO_NAME = (mc.PortDelegation,)
 _HAVE_RULES_OF_THEIR_OWN = (*MODULES, c.StructureField, c.UnionCase)
@@ -34,7 +35,7 @@ _KINDS: tuple[tuple[str, tuple[type[Named], ...]], ...] = (
 """What a module declares, by the fields that hold it: names differ within one of them."""
 
 
-@rule("R-9.1.4.1-01", Named)
+@rule("R-9.1.4.1-01", Named, judged_by=has_name)
 def names_are_not_empty(named: Named, _scope: Scope) -> Iterable[Complaint]:
     """An identifier identifies, so it has at least one character."""
     if named.name or isinstance(named, _NEED_NO_NAME + _HAVE_RULES_OF_THEIR_OWN):
@@ -49,14 +50,14 @@ def modules_have_names(module: Module, _scope: Scope) -> Iterator[Complaint]:
         yield module, "a module has an empty name; give it one"
 
 
-@rule("R-9.2.4.3-03", c.StructureField)
+@rule("R-9.2.4.3-03", c.StructureField, judged_by=has_name)
 def fields_have_names(field: c.StructureField, _scope: Scope) -> Iterator[Complaint]:
     """A field must have an identifier."""
     if not field.name:
         yield field, "a structure's field has an empty name; give it one"
 
 
-@rule("R-9.2.4.6-01", c.UnionCase)
+@rule("R-9.2.4.6-01", c.UnionCase, judged_by=has_name)
 def cases_have_names(case: c.UnionCase, _scope: Scope) -> Iterator[Complaint]:
     """A case contains a name."""
     if not case.name:
@@ -123,9 +124,15 @@ _MEMBERS: tuple[tuple[str, str, Owners, dict[str, str]], ...] = (
 def _differ(name: str, fields: dict[str, str]) -> FindComplaints:
     """The rule that no two members in one of ``fields`` have the same name."""
 
-    def complaints(owner: Element, _scope: Scope) -> Iterator[Complaint]:
-        for field, what in fields.items():
-            yield from repeated(getattr(owner, field), f"{what} {getattr(owner, 'name', '')}".rstrip())
+    members = [attrgetter(field) for field in fields]
+
+    def complaints(owner: Element, _scope: Scope) -> Iterable[Complaint]:
+        for held in members:
+            if _repeats(held(owner)):
+                break
+        else:
+            return ()
+        return [one for field, what in fields.items() for one in repeated(getattr(owner, field), _called(what, owner))]
 
     complaints.__name__ = name
     return complaints
@@ -133,6 +140,17 @@ def _differ(name: str, fields: dict[str, str]) -> FindComplaints:
 
 for _name, _requirement, _owners, _fields in _MEMBERS:
     rule(_requirement, *_owners)(_differ(_name, _fields))
+
+
+def _called(what: str, owner: Element) -> str:
+    return f"{what} {getattr(owner, 'name', '')}".rstrip()
+
+
+def _repeats(elements: Sequence[Named]) -> bool:
+    return len(elements) > 1 and len(set(map(_NAME, elements))) < len(elements)
+
+
+_NAME = attrgetter("name")
 
 
 def repeated(elements: Iterable[Named], what: str) -> Iterator[tuple[Element, str]]:

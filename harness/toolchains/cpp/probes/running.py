@@ -6,7 +6,7 @@ import re
 import secrets
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -42,6 +42,7 @@ from ucm_cts.harness.toolchains.cpp.probes.prelude import (
 from ucm_cts.harness.toolchains.cpp.probes.text import Text
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.reference_models.mapping.cpp import claims
+from ucm_cts.reference_models.mapping.cpp.classes import Class
 from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp
 
 _ROUNDS = 4
@@ -95,6 +96,12 @@ class _Comparing:
         self._compiler = compiler
         self._abstract = {a.key: a for a in expected.abstract}
         self._checks = list(self._rendered())
+        self._numbered = {check.number: check for check in self._checks}
+        self._implemented: dict[str, list[tuple[Class, Check]]] = {}
+        for one in self._checks:
+            claim = one.expected.claim
+            if isinstance(claim, claims.Implemented):
+                self._implemented.setdefault(claim.key, []).append((claim.owner, one))
         self._seen = Seen()
         self._linked = Linked()
 
@@ -165,7 +172,8 @@ class _Comparing:
     def _probe(self, folder: Path) -> None:
         """Compile and run; what failed to compile is left out of the next round, so that the rest is run at last."""
         for attempt in range(_ROUNDS):
-            left = [c for c in self._checks if self._is_left(c)]
+            broken = self._broken_keys()
+            left = [c for c in self._checks if self._is_left(c, broken)]
             made, token = folder / f"probes-{attempt}", secrets.token_hex(8)
             compiled = compiling.compile_text(
                 self._unit(left, made.with_suffix(".results"), token),
@@ -184,14 +192,18 @@ class _Comparing:
             if not self._sort(compiled):
                 return
 
-    def _is_left(self, one: Check) -> bool:
-        broken = one.number in self._seen.failed or one.text.key in self._broken_keys()
-        return not broken and not self._pointless(one)
+    def _is_left(self, one: Check, broken: Collection[str]) -> bool:
+        is_broken = one.number in self._seen.failed or one.text.key in broken
+        return not is_broken and not self._pointless(one)
+
+    def _failed(self) -> Iterator[Check]:
+        """The checks that failed, in their order."""
+        return (self._numbered[number] for number in sorted(self._seen.failed) if number in self._numbered)
 
     def _pointless(self, one: Check) -> str:
         """What a check needs that another one has found missing; nothing if it says something of its own."""
-        for other in self._checks:
-            if other.number in self._seen.failed and other.number != one.number:
+        for other in self._failed():
+            if other.number != one.number:
                 lacking = lacks(one.expected.claim, other.expected.claim)
                 if lacking:
                     return lacking
@@ -265,7 +277,8 @@ class _Comparing:
         for name, text in self._support(modern).items():
             if name not in self._seen.support:
                 lines += [f'#line 1 "support#{name}"', text]
-        lines += [text for check in self._checks for text in outside(check, check in left)]
+        numbers = {check.number for check in left}
+        lines += [text for check in self._checks for text in outside(check, check.number in numbers)]
         broken = self._broken_keys()
         needed = {check.text.key for check in left}
         wanted = self._with_references(needed)
@@ -335,8 +348,7 @@ class _Comparing:
         observed = self._observed_of(one)
         if observed is None and one.number not in self._seen.kept:
             return self._seen.problem or "what it needs does not compile"
-        functions = any(c.text.of_functions and c.number in self._seen.failed for c in self._checks)
-        if one.text.judged_last and observed is not None and functions:
+        if one.text.judged_last and observed is not None and any(c.text.of_functions for c in self._failed()):
             return "functions of the abstract classes are not as they should be"
         if one.text.pure and not self._is_implementable(one):
             return "the class cannot be implemented"
@@ -345,12 +357,7 @@ class _Comparing:
     def _is_implementable(self, one: Check) -> bool:
         claim = one.expected.claim
         assert isinstance(claim, claims.Pure)
-        others = (
-            c
-            for c in self._checks
-            if isinstance(c.expected.claim, claims.Implemented)
-            and (c.expected.claim.owner, c.expected.claim.key) == (claim.owner, claim.key)
-        )
+        others = (c for owner, c in self._implemented.get(claim.key, ()) if owner == claim.owner)
         return all(self._observed_of(c) is None and c.number in self._seen.kept for c in others)
 
     def _difference(self, one: Check, observed: str, notes: tuple[tuple[str, int], ...]) -> Difference:

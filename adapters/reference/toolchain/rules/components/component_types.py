@@ -12,6 +12,10 @@ from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_co
 from ucm_cts.adapters.reference.toolchain.rules.inheritance import parents
 
 
+def _number_of_specs(port: mc.Port) -> int:
+    return len(port.specs)
+
+
 @rule("R-9.5.2.3-03", mc.AtomicComponentImplementation, mc.CompositeComponentImplementation)
 def implements_a_component_type(
     implementation: mc.AtomicComponentImplementation | mc.CompositeComponentImplementation, scope: Scope
@@ -70,14 +74,14 @@ def attributes_do_not_clash_with_inherited_ones(component: mc.ComponentType, sco
             yield attribute, f"{component.name} inherits an attribute {attribute.name} already; rename this one"
 
 
-@rule("R-9.5.3.2-01", mc.Port)
+@rule("R-9.5.3.2-01", mc.Port, judged_by=_number_of_specs)
 def port_is_specified(port: mc.Port, _scope: Scope) -> Iterator[Complaint]:
     """A port has a specification."""
     if not port.specs:
         yield port, f"port {port.name} has no specification; add a PortTypeSpec or a PortRoleSpec"
 
 
-@rule("R-9.5.3.2-02", mc.Port)
+@rule("R-9.5.3.2-02", mc.Port, judged_by=_number_of_specs)
 def port_is_specified_once(port: mc.Port, _scope: Scope) -> Iterator[Complaint]:
     """A port has no second specification."""
     for again in port.specs[1:]:

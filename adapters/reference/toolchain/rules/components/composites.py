@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from operator import attrgetter
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel import components as mc
@@ -20,7 +21,7 @@ def has_some_part(composite: mc.CompositeComponentImplementation, _scope: Scope)
         yield composite, f"composite {composite.name} has no part; add one"
 
 
-@rule("R-9.5.5.3-01", mc.AssemblyPart)
+@rule("R-9.5.5.3-01", mc.AssemblyPart, judged_by=attrgetter("instance_of"))
 def parts_are_components(part: mc.AssemblyPart, scope: Scope) -> Iterator[Complaint]:
     """A part is an instance of a component that is there."""
     if scope.find(part.instance_of, *part_ports.COMPONENTS) is None:
@@ -68,7 +69,7 @@ class Ends(NamedTuple):
 
 def _ends(composite: mc.CompositeComponentImplementation, scope: Scope) -> list[Ends]:
     """The ports of each delegation that leads to one end."""
-    return scope.remembered(("delegated", id(composite)), lambda: list(_find_ends(composite, scope)))
+    return scope.remembered_last("delegated", id(composite), lambda: list(_find_ends(composite, scope)))
 
 
 def _find_ends(composite: mc.CompositeComponentImplementation, scope: Scope) -> Iterator[Ends]:

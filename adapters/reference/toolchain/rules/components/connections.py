@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from operator import attrgetter
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel import components as mc
@@ -18,7 +19,7 @@ DEFINITIONS = (mi.ConnectorDefinition, mi.InteractionPattern)
 Composite = mc.CompositeComponentImplementation
 
 
-@rule("R-9.5.5.4-01", mc.Connection)
+@rule("R-9.5.5.4-01", mc.Connection, judged_by=attrgetter("definition"))
 def connections_have_a_definition(connection: mc.Connection, scope: Scope) -> Iterator[Complaint]:
     """A connection is an instance of a connector or a pattern that is there."""
     if scope.find(connection.definition, *DEFINITIONS) is None:
@@ -74,7 +75,7 @@ class Joint(NamedTuple):
 
 
 def _joints(composite: Composite, scope: Scope) -> list[Joint]:
-    return scope.remembered(("joints", id(composite)), functools.partial(_find_joints, composite, scope))
+    return scope.remembered_last("joints", id(composite), functools.partial(_find_joints, composite, scope))
 
 
 def _find_joints(composite: Composite, scope: Scope) -> list[Joint]:
@@ -82,13 +83,18 @@ def _find_joints(composite: Composite, scope: Scope) -> list[Joint]:
     meanings = {
         part.name: part_ports.meanings_of_component(part.instance_of, scope) for part in reversed(composite.parts)
     }
+    definitions: dict[str, Definition] = {}
     for connection in composite.connections:
         joined = []
         for end in connection.ends:
-            meaning = meanings.get(end.part, {}).get(end.port)
+            of_part = meanings.get(end.part)
+            meaning = of_part.get(end.port) if of_part is not None else None
             if meaning is not None:
                 joined.append(Joined(end, meaning))
-        found.append(Joint(connection, _definition(connection.definition, scope), joined))
+        definition = definitions.get(connection.definition)
+        if definition is None:
+            definition = definitions[connection.definition] = _definition(connection.definition, scope)
+        found.append(Joint(connection, definition, joined))
     return found
 
 
@@ -198,25 +204,33 @@ def _apis(connector: Declared) -> dict[int, list[mi.InteractionRole]]:
 Playing = tuple[mc.Connection, mi.InteractionRole, int]
 
 
-def _played(composite: Composite, scope: Scope) -> list[Playing]:
+def _played(composite: Composite, scope: Scope) -> Iterator[Playing]:
     """Each role of each connection and how many ends play it; nothing of one whose ends may play several roles or none."""
-    return scope.remembered(
-        ("played", id(composite)), lambda: [one for joint in _joints(composite, scope) for one in _count(joint)]
-    )
+    known = scope.remembered("roles that ends play", dict[tuple[int, ...], Numbers])
+    for connection, definition, joined in _joints(composite, scope):
+        if len(joined) < len(connection.ends):
+            continue
+        key = (id(definition), *(id(meaning.target) for _, meaning in joined))
+        numbers = known.get(key)
+        if numbers is None:
+            numbers = known[key] = _count(definition, [meaning for _, meaning in joined])
+        for role, number in numbers:
+            yield connection, role, number
 
 
-def _count(joint: Joint) -> Iterator[Playing]:
-    connection, definition, joined = joint
-    if len(joined) < len(connection.ends):
-        return
+Numbers = list[tuple[mi.InteractionRole, int]]
+"""How many ends play each role."""
+
+
+def _count(definition: Definition, meanings: Iterable[part_ports.Specified]) -> Numbers:
+    """How often each role of ``definition`` is played by ends that mean this; nothing if one may play several roles or none."""
     numbers: dict[int, int] = {}
-    for _, meaning in joined:
+    for meaning in meanings:
         player = meaning.target
         if meaning.kind is mc.PortTypeSpec:
             candidates = definition.apis.get(id(meaning.target), ())
             if len(candidates) != 1:
-                return
+                return []
             player = candidates[0]
         numbers[id(player)] = numbers.get(id(player), 0) + 1
-    for role in definition.roles:
-        yield connection, role, numbers.get(id(role), 0)
+    return [(role, numbers.get(id(role), 0)) for role in definition.roles]

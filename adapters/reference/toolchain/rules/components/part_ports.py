@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel import components as mc
@@ -37,7 +37,7 @@ class Specified(NamedTuple):
 
 def part_called(composite: mc.CompositeComponentImplementation, name: str, scope: Scope) -> mc.AssemblyPart | None:
     """The part of this name of a composite that stands in ``scope``; None if there is none."""
-    return scope.remembered(("parts", id(composite)), functools.partial(_parts, composite)).get(name)
+    return scope.remembered_last("parts", id(composite), functools.partial(_parts, composite)).get(name)
 
 
 def _parts(composite: mc.CompositeComponentImplementation) -> dict[str, mc.AssemblyPart]:
@@ -98,17 +98,17 @@ def _ports(owner: Declared) -> dict[str, Declared]:
 
 def specified(port: Declared) -> Specified | None:
     """What the specification of ``port`` means; None if it has not just one or names nothing that is there."""
-    return port.scope.remembered(("specified", id(port.element)), functools.partial(_specified, port))
-
-
-def _specified(port: Declared) -> Specified | None:
     assert isinstance(port.element, mc.Port)
     specs, scope = port.element.specs, port.scope
     if len(specs) != 1:
         return None
-    if isinstance(specs[0], mc.PortTypeSpec):
-        return _by_type(specs[0], scope)
-    return _by_role(specs[0], scope)
+    spec = specs[0]
+    key: Hashable  # ports with the same references share what these mean
+    if isinstance(spec, mc.PortTypeSpec):
+        key = (mc.PortTypeSpec, spec.type, *((one.abstract_type, one.actual_type) for one in spec.bindings))
+        return scope.remembered(key, functools.partial(_by_type, spec, scope))
+    key = (mc.PortRoleSpec, spec.role, *((one.item, one.actual_type) for one in spec.bindings))
+    return scope.remembered(key, functools.partial(_by_role, spec, scope))
 
 
 _TYPES = (c.DataType, c.Interface, c.AbstractDataType, c.AbstractInterface)

@@ -13,6 +13,11 @@ from ucm_cts.adapters.reference.toolchain.rules.components import bindings
 from ucm_cts.adapters.reference.toolchain.rules.components.bindings import ABSTRACT, TYPES
 
 
+def _bound(spec: PortTypeSpec) -> tuple[object, ...]:
+    """The references of a port by port type, which are all that its rules look at."""
+    return (spec.type, *((one.abstract_type, one.actual_type) for one in spec.bindings))
+
+
 @rule("R-9.5.3.4-01", PortRoleSpec)
 def names_a_role(spec: PortRoleSpec, scope: Scope) -> Iterator[Complaint]:
     """The role of a port is one that a pattern has."""
@@ -94,50 +99,50 @@ def items_have_one_actual_type(spec: PortRoleSpec, scope: Scope) -> Iterator[Com
             yield binding, f"item {item.name} is bound to {seen[id(item)].path} already; keep one of both"
 
 
-@rule("R-9.5.3.6-01", PortTypeSpec)
+@rule("R-9.5.3.6-01", PortTypeSpec, judged_by=_bound)
 def names_a_port_type(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """The type of a port is a port type that is there."""
     if scope.find(spec.type, mi.PortType) is None:
         yield spec, f"'{spec.type}' is no port type; declare it"
 
 
-@rule("R-9.5.3.6-02", PortTypeSpec, under="missing-type-bindings=check")
+@rule("R-9.5.3.6-02", PortTypeSpec, under="missing-type-bindings=check", judged_by=_bound)
 def abstract_types_of_ports_are_bound(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """Something stands for each abstract type of the port type."""
     return bindings.not_bound(spec, spec.bindings, scope, _api(spec, scope))
 
 
-@rule("R-9.5.3.7-01", PortTypeSpec)
+@rule("R-9.5.3.7-01", PortTypeSpec, judged_by=_bound)
 def ports_bind_abstract_types(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """What is bound is an abstract type."""
     return bindings.no_abstract_type(spec.bindings, scope)
 
 
-@rule("R-9.5.3.7-02", PortTypeSpec, under="unused-bindings=refused")
+@rule("R-9.5.3.7-02", PortTypeSpec, under="unused-bindings=refused", judged_by=_bound)
 def ports_bind_what_they_use(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """What is bound is an abstract type that the port type uses."""
     return bindings.not_used(spec.bindings, scope, _api(spec, scope))
 
 
-@rule("R-9.5.3.7-03", PortTypeSpec)
+@rule("R-9.5.3.7-03", PortTypeSpec, judged_by=_bound)
 def ports_bind_to_types(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """What stands for an abstract type is a type."""
     return bindings.no_actual_type(spec.bindings, scope)
 
 
-@rule("R-9.5.3.7-03", PortTypeSpec, under="abstract-actual-types=refused")
+@rule("R-9.5.3.7-03", PortTypeSpec, under="abstract-actual-types=refused", judged_by=_bound)
 def ports_bind_to_concrete_types(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """What stands for an abstract type is not abstract."""
     return bindings.still_abstract(spec.bindings, scope)
 
 
-@rule("R-9.5.3.7-04", PortTypeSpec)
+@rule("R-9.5.3.7-04", PortTypeSpec, judged_by=_bound)
 def ports_bind_to_types_of_the_same_kind(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """Data types stand for data types, interfaces for interfaces."""
     return bindings.of_another_kind(spec.bindings, scope)
 
 
-@rule("R-9.5.3.7-05", PortTypeSpec)
+@rule("R-9.5.3.7-05", PortTypeSpec, judged_by=_bound)
 def ports_bind_to_one_type(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """No abstract type stands for two types."""
     return bindings.bound_twice(spec.bindings, scope)

@@ -88,7 +88,7 @@ class _Parser:
 
     def whole(self) -> Expression:
         """All of it."""
-        found = self._binary(0)
+        found = self._binary(0) if len(self._tokens) > 1 else self._unary()
         if self._at < len(self._tokens):
             raise NotAConstant(f"'{self._tokens[self._at][1][:20]}' is too much")
         return found
@@ -97,7 +97,7 @@ class _Parser:
         if level == len(_BINDING):
             return self._unary()
         left = self._binary(level + 1)
-        while self._next() in [("sign", sign) for sign in _BINDING[level]]:
+        while self._next()[0] == "sign" and self._next()[1] in _BINDING[level]:
             sign = self._take()[1]
             left = Operation(sign, left, self._binary(level + 1))
         return left

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import operator
 from collections.abc import Callable, Mapping
 from typing import TypeGuard
 
 from ucm_cts.adapters.contract.metamodel import contracts as c
-from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.contract.metamodel.common import Named
+from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.rules.contracts import constant_syntax as syntax
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
 
@@ -54,17 +56,25 @@ def fit(text: str, type_: str, scope: Scope, ranges: Ranges = c.INTEGER_RANGES) 
     ``ranges`` are those of the kinds of integers.
     """
     found = actual_type(type_, scope)
-    if found is not None and isinstance(found.element, c.Enumeration) and _names(found.element, text):
+    if found is not None and isinstance(found.element, c.Enumeration) and _names(found, text):
         return  # the name is not resolved
     if found is not None and isinstance(found.element, c.PrimitiveInteger):
         _fit_integer(syntax.parsed(text), found.element, scope, ranges)
+    if found is not None and isinstance(found.element, c.Enumeration):
+        _fit_enumeration(syntax.parsed(text), found, scope)
     for cls, fitting in _FITTING.items():
         if found is not None and isinstance(found.element, cls):
             fitting(syntax.parsed(text), found.element, scope)
 
 
-def _names(enumeration: c.Enumeration, text: str) -> bool:
-    return any(enumerator.name == text for enumerator in enumeration.enumerators)
+def _names(enumeration: Declared, text: str) -> bool:
+    element, scope = enumeration
+    return text in scope.remembered(("names of enumerators", id(element)), functools.partial(_enumerators, element))
+
+
+def _enumerators(enumeration: Named) -> frozenset[str]:
+    assert isinstance(enumeration, c.Enumeration)
+    return frozenset(enumerator.name for enumerator in enumeration.enumerators)
 
 
 def _fit_integer(expression: syntax.Expression, type_: c.PrimitiveInteger, scope: Scope, ranges: Ranges) -> None:
@@ -101,16 +111,16 @@ def _fit_string(expression: syntax.Expression, type_: c.StringType, scope: Scope
         raise NoValueOfType(f"it has more than {type_.max_size} characters")
 
 
-def _fit_enumeration(expression: syntax.Expression, type_: c.Enumeration, scope: Scope) -> None:
+def _fit_enumeration(expression: syntax.Expression, type_: Declared, scope: Scope) -> None:
     if not isinstance(expression, syntax.Name):
         raise NoValueOfType("it is the name of no enumerator")
     if _names(type_, expression.reference):
         return
     constant = scope.find(expression.reference, c.Constant)
     if constant is None or not isinstance(constant.element, c.Constant):
-        raise NoValueOfType(f"{type_.name} has no enumerator {expression.reference}")
+        raise NoValueOfType(f"{type_.element.name} has no enumerator {expression.reference}")
     found = actual_type(constant.element.type, constant.scope)
-    if found is None or found.element is not type_:
+    if found is None or found.element is not type_.element:
         raise NoValueOfType(f"{expression.reference} is a constant of another type")
 
 
@@ -119,7 +129,6 @@ _FITTING: Mapping[type, Callable[..., None]] = {
     c.PrimitiveBoolean: _fit_boolean,
     c.PrimitiveChar: _fit_char,
     c.StringType: _fit_string,
-    c.Enumeration: _fit_enumeration,
 }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from operator import attrgetter
 
 from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.names import Scope
@@ -50,7 +51,7 @@ def constants_are_values_of_their_types(constant: c.Constant, scope: Scope) -> I
         pass
 
 
-@rule("R-9.2.2.7-01", c.ConfigurationParameter, c.Attribute)
+@rule("R-9.2.2.7-01", c.ConfigurationParameter, c.Attribute, judged_by=attrgetter("type", "default_value"))
 def defaults_are_values_of_their_types(
     owner: c.ConfigurationParameter | c.Attribute, scope: Scope
 ) -> Iterator[Complaint]:

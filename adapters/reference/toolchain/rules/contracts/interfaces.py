@@ -8,21 +8,25 @@ from typing import get_args
 from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
-from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
+from ucm_cts.adapters.reference.toolchain.checking import TYPE, Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import TypedInContracts
 
 _DATA_TYPES = (c.DataType, c.AbstractDataType)
+_EXCEPTIONS = (c.Exception_,)
 
 
 @rule("R-9.2.7-11", c.Method)
-def at_most_one_return_value(method: c.Method, _scope: Scope) -> Iterator[Complaint]:
+def at_most_one_return_value(method: c.Method, _scope: Scope) -> Iterable[Complaint]:
     """A method returns one thing."""
-    for parameter in [p for p in method.parameters if p.direction == "RETURN"][1:]:
-        yield (
+    returned = [p for p in method.parameters if p.direction == "RETURN"]
+    return [
+        (
             parameter,
             f"parameter {parameter.name} is a second RETURN of method {method.name}; give it another direction",
         )
+        for parameter in returned[1:]
+    ]
 
 
 @rule("R-9.2.7.1-02", c.Interface)
@@ -91,6 +95,8 @@ def _members(interface: c.Interface) -> Iterator[c.Method | c.Attribute]:
 @rule("R-9.2.7.2-02", c.Interface)
 def methods_are_not_repeated(interface: c.Interface, _scope: Scope) -> Iterator[Complaint]:
     """Two methods differ in their names or in their parameters."""
+    if _names_differ(interface):
+        return
     seen: set[tuple[object, ...]] = set()
     for method in interface.methods:
         signature = _signature(method)
@@ -102,6 +108,8 @@ def methods_are_not_repeated(interface: c.Interface, _scope: Scope) -> Iterator[
 @rule("R-9.2.7.2-02", c.Interface, under="method-overloading=refused")
 def methods_differ_in_name(interface: c.Interface, _scope: Scope) -> Iterator[Complaint]:
     """No mapping to IDL can tell two methods of one name apart."""
+    if _names_differ(interface):
+        return
     seen: dict[str, tuple[object, ...]] = {}
     for method in interface.methods:
         signature = _signature(method)
@@ -109,19 +117,26 @@ def methods_differ_in_name(interface: c.Interface, _scope: Scope) -> Iterator[Co
             yield method, f"interface {interface.name} has several methods {method.name}; give them names of their own"
 
 
+def _names_differ(interface: c.Interface) -> bool:
+    """Whether no two methods have the same name, so that their parameters do not matter."""
+    return len({method.name for method in interface.methods}) == len(interface.methods)
+
+
 def _signature(method: c.Method) -> tuple[object, ...]:
     return (method.name, *((p.name, p.direction, p.type) for p in method.parameters))
 
 
 @rule("R-9.2.7.2-03", c.Method)
-def raises_exceptions(method: c.Method, scope: Scope) -> Iterator[Complaint]:
+def raises_exceptions(method: c.Method, scope: Scope) -> Iterable[Complaint]:
     """What a method raises is an exception that is there."""
-    for raised in method.raised_exceptions:
-        if scope.find(raised.exception, c.Exception_) is None:
-            yield raised, f"method {method.name} raises '{raised.exception}', which is no exception; declare it"
+    return [
+        (raised, f"method {method.name} raises '{raised.exception}', which is no exception; declare it")
+        for raised in method.raised_exceptions
+        if scope.find_one_of(raised.exception, _EXCEPTIONS) is None
+    ]
 
 
-@rule("R-9.2.8-03", *get_args(TypedInContracts), under="abstract-types-elsewhere=refused")
+@rule("R-9.2.8-03", *get_args(TypedInContracts), under="abstract-types-elsewhere=refused", judged_by=TYPE)
 def abstract_types_serve_interfaces_only(typed: TypedInContracts, scope: Scope) -> Iterable[Complaint]:
     """Nothing would ever bind an abstract type inside another type or a constant."""
     found = scope.find_one_of(typed.type, _DATA_TYPES)

@@ -92,7 +92,7 @@ def _parts(declared: Declared, classes: tuple[type[Named], ...]) -> Iterator[Dec
         return
     references: Iterator[str] = iter(())
     if isinstance(element, c.Structure):
-        references = (field.type for field in element.fields)
+        references = iter({field.type: None for field in element.fields})
     elif isinstance(element, c.Union):
         references = (case.type for case in element.cases)
     elif isinstance(element, c.Array | c.Sequence):
