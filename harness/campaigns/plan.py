@@ -176,7 +176,9 @@ class _Reader:
         }
         line = self.line(place)
         if not chosen["adapter"]:
-            raise DocumentError(self.path, line, f"{name} has no adapter; write adapter = \"...\", as for 'ucm-cts run'")
+            raise DocumentError(
+                self.path, line, f"{name} has no adapter; write adapter = \"...\", as for 'ucm-cts run'"
+            )
         self.check_profiles(f"{place}.profiles", chosen["profiles"])
         return PlannedProduct(name, line, **chosen)
 
@@ -184,7 +186,9 @@ class _Reader:
         """``table`` as a ``kind``, with the line of what is wrong in it."""
         prefix = f"{place}." if place else ""
         if not isinstance(table, dict):
-            raise DocumentError(self.path, self.line(place), f"{place} is a table: write [{place}] on a line of its own")
+            raise DocumentError(
+                self.path, self.line(place), f"{place} is a table: write [{place}] on a line of its own"
+            )
         known = [field.encode_name for field in msgspec.structs.fields(kind)]
         for key in table:
             if key not in known:
@@ -208,7 +212,9 @@ class _Reader:
     def check_name(self, place: str, name: str) -> None:
         if not _NAME.fullmatch(name) or ".." in name:
             raise DocumentError(
-                self.path, self.line(place), f"'{name[:60]}' is no name for a folder; use letters, digits, '-', '_' and '.'"
+                self.path,
+                self.line(place),
+                f"'{name[:60]}' is no name for a folder; use letters, digits, '-', '_' and '.'",
             )
 
     def check_profiles(self, place: str, profiles: Iterable[str]) -> None:
@@ -220,5 +226,3 @@ class _Reader:
             else:
                 continue
             raise DocumentError(self.path, self.line(place), f"{problem}; there is {', '.join(FRAMEWORK_PROFILES)}")
-
-

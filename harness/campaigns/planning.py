@@ -86,9 +86,7 @@ def _runs(plan: Plan, product: PlannedProduct) -> Iterator[RunOfPlan]:
         raise DocumentError(plan.path, product.line, str(problem)) from None
 
 
-def _run(
-    plan: Plan, product: PlannedProduct, profile: str, seed: int, known: tuple[KnownFailure, ...]
-) -> RunOfPlan:
+def _run(plan: Plan, product: PlannedProduct, profile: str, seed: int, known: tuple[KnownFailure, ...]) -> RunOfPlan:
     endpoint = locate(product.adapter, sandbox=product.sandbox, virtual_time=product.virtual_time)
     run = PlannedRun(
         suite=suite_digest(),
@@ -108,7 +106,9 @@ def _run(
         incident_time=product.incident_time,
     )
     if profile not in statement_of(run).profiles:
-        raise WrongUse(f"the statement of {product.name} does not claim profile '{profile}'; claim it, or leave it out here")
+        raise WrongUse(
+            f"the statement of {product.name} does not claim profile '{profile}'; claim it, or leave it out here"
+        )
     purposes = purposes_of(run)
     if not purposes:
         raise WrongUse(
@@ -148,6 +148,8 @@ def _generated(wanted: SelfTest) -> Iterator[GeneratedMutant]:
     if not wanted.generated:
         return
     if importlib.util.find_spec("universalmutator") is None:
-        raise WrongUse("generated mutants take universalmutator, which this environment lacks: pip install universalmutator==1.14.1")
+        raise WrongUse(
+            "generated mutants take universalmutator, which this environment lacks: pip install universalmutator==1.14.1"
+        )
     candidates, _ = python_programs.candidates()
     yield from drawn(candidates, wanted.generated)

@@ -104,21 +104,24 @@ def executable_digest() -> str:
     try:
         return hashlib.sha256(COMMAND.read_bytes()).hexdigest()
     except OSError:
-        raise WrongUse(f"'{COMMAND.name}' is a compiled part of ucm-cts, and this installation has none: {HOW_TO_COMPILE}") from None
+        raise WrongUse(
+            f"'{COMMAND.name}' is a compiled part of ucm-cts, and this installation has none: {HOW_TO_COMPILE}"
+        ) from None
 
 
 def check_trial(trial: Trial | GeneratedTrial) -> None:
     """Raise ``WrongUse`` unless suite and subjects are here what they were where the plan was read."""
     check_suite(trial.suite, bundled_digest())
     if isinstance(trial, Trial) and trial.executable and trial.executable != executable_digest():
-        raise WrongUse("the compiled mutants differ on this worker from those where the plan was read; install the same ones")
+        raise WrongUse(
+            "the compiled mutants differ on this worker from those where the plan was read; install the same ones"
+        )
 
 
 def check_suite(said: str, found: str) -> None:
     """Raise ``WrongUse`` if the suite here has another digest."""
     if said != found:
         raise WrongUse("this worker has another build of ucm-cts than the one that read the plan; install the same one")
-
 
 
 def _digest(value: object) -> str:

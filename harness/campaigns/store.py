@@ -14,6 +14,10 @@ from ucm_cts.harness.report.write import write_whole
 _NAME = re.compile(r"[0-9a-f]{64}")
 
 
+class NotKept(Exception):
+    """A result cannot be kept. The text says why, and what to do."""
+
+
 class Store:
     """The results in one folder. One process at a time writes to it."""
 
@@ -40,13 +44,13 @@ class Store:
         return self.get(address) is not None
 
     def put(self, address: str, result: bytes) -> None:
-        """Keep ``result``. Raises ``WrongUse`` if there is no room, or the file cannot be written."""
+        """Keep ``result``. Raises ``NotKept`` if there is no room, or the file cannot be written."""
         path = self._path(address)
         try:
             path.parent.mkdir(exist_ok=True)
             write_whole(path, f"{_digest(result)}\n".encode() + result)
         except OSError as error:
-            raise WrongUse(
+            raise NotKept(
                 f"a result cannot be kept in '{self.folder}': {error.strerror or error}; what was kept before is not lost: "
                 "make room and give the same command again"
             ) from None
