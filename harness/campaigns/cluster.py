@@ -161,17 +161,18 @@ class DaskWorkers:
 
     def ask(self, due: Due, needed: Sequence[bytes]) -> None:
         """Ask for ``due``, which takes the results ``needed``."""
+        key = f"{due.unit.__struct_config__.tag}-{due.address}"
         future = self._client.submit(
             self._work,
             encoded(due.unit),
             tuple(needed),
             self._hidden,
-            key=f"{due.unit.__struct_config__.tag}-{due.address}",
+            key=key,
             resources={CORE: 1} if due.unit.timed else None,
             retries=1,
             pure=False,
         )
-        self._asked[future.key] = due
+        self._asked[key] = due
         future.add_done_callback(self._ended.put)
 
     def answer(self) -> tuple[Due, bytes | Exception]:
@@ -187,14 +188,18 @@ class DaskWorkers:
         try:
             result: bytes = future.result(timeout=SECONDS_FOR_AN_ANSWER)
         except KilledWorker as error:
-            return self._asked.pop(future.key), WorkersDied(f"its workers died, {error.allowed_failures + 1} times")
+            return self._asked.pop(str(future.key)), WorkersDied(
+                f"its workers died, {error.allowed_failures + 1} times"
+            )
         except UnitFailed as error:
-            return self._asked.pop(future.key), error
+            return self._asked.pop(str(future.key)), error
         except Exception as error:  # noqa: BLE001 - one unit's trouble is not that of the others
             if future.status != "error":
                 raise SchedulerLost(one_line(f"{type(error).__name__}: {error}", 200)) from None
-            return self._asked.pop(future.key), UnitFailed(f"UCM-CTS itself failed: {type(error).__name__}: {error}")
-        return self._asked.pop(future.key), result
+            return self._asked.pop(str(future.key)), UnitFailed(
+                f"UCM-CTS itself failed: {type(error).__name__}: {error}"
+            )
+        return self._asked.pop(str(future.key)), result
 
     def _count(self) -> None:
         """How many threads do workers have? Raises ``SchedulerLost`` if there is no scheduler any more, or have been no workers for long."""

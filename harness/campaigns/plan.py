@@ -156,31 +156,35 @@ class _Reader:
             yield self.settled(below, f"{name}/{variant}", top, self.table(below, other, Settings), given)
 
     def settled(self, place: str, name: str, top: _Top, *most_special_first: Settings) -> PlannedProduct:
-        usual = Settings(
-            statement="",
-            known_failures="",
-            artifacts=(),
-            profiles=top.profiles,
-            seeds=top.seeds,
-            select="",
-            systematic=0,
-            virtual_time=False,
-            sandbox=True,
-            timeout=Limits.seconds,
-            memory=Limits.memory,
-            incident_time=Limits.incident_seconds,
-        )
-        chosen = {
-            field: next((v for given in (*most_special_first, usual) if (v := getattr(given, field)) is not None), None)
-            for field in Settings.__struct_fields__
-        }
+        def chosen(field: str, usual: Any) -> Any:
+            given = (getattr(settings, field) for settings in most_special_first)
+            return next((value for value in given if value is not None), usual)
+
         line = self.line(place)
-        if not chosen["adapter"]:
+        adapter = chosen("adapter", "")
+        if not adapter:
             raise DocumentError(
                 self.path, line, f"{name} has no adapter; write adapter = \"...\", as for 'ucm-cts run'"
             )
-        self.check_profiles(f"{place}.profiles", chosen["profiles"])
-        return PlannedProduct(name, line, **chosen)
+        profiles = chosen("profiles", top.profiles)
+        self.check_profiles(f"{place}.profiles", profiles)
+        return PlannedProduct(
+            name,
+            line,
+            adapter,
+            statement=chosen("statement", ""),
+            known_failures=chosen("known_failures", ""),
+            artifacts=chosen("artifacts", ()),
+            profiles=profiles,
+            seeds=chosen("seeds", top.seeds),
+            select=chosen("select", ""),
+            systematic=chosen("systematic", 0),
+            virtual_time=chosen("virtual_time", False),
+            sandbox=chosen("sandbox", True),
+            timeout=chosen("timeout", Limits.seconds),
+            memory=chosen("memory", Limits.memory),
+            incident_time=chosen("incident_time", Limits.incident_seconds),
+        )
 
     def table(self, place: str, table: object, kind: type[T]) -> T:
         """``table`` as a ``kind``, with the line of what is wrong in it."""

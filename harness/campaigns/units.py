@@ -93,7 +93,7 @@ class GeneratedTrial(Value, frozen=True, tag="generated"):
 
 Unit = Slice | Conclusion | Trial | GeneratedTrial
 
-_decode = msgspec.json.Decoder(Unit).decode
+_decoder: msgspec.json.Decoder[Unit] = msgspec.json.Decoder(Unit)
 
 
 def encoded(unit: Unit) -> bytes:
@@ -103,7 +103,7 @@ def encoded(unit: Unit) -> bytes:
 
 def decoded(data: bytes) -> Unit:
     """The unit that was ``encoded``."""
-    return _decode(data)
+    return _decoder.decode(data)
 
 
 def address(unit: Unit) -> str:
