@@ -195,7 +195,7 @@ class DaskWorkers:
             return self._asked.pop(str(future.key)), error
         except Exception as error:  # noqa: BLE001 - one unit's trouble is not that of the others
             if future.status != "error":
-                raise SchedulerLost(one_line(f"{type(error).__name__}: {error}", 200)) from None
+                raise SchedulerLost(type(error).__name__) from None
             return self._asked.pop(str(future.key)), UnitFailed(
                 f"UCM-CTS itself failed: {type(error).__name__}: {error}"
             )
@@ -206,7 +206,7 @@ class DaskWorkers:
         try:
             threads = sum(self._client.nthreads().values())
         except Exception as error:  # noqa: BLE001 - whatever Dask has met: it does not answer
-            raise SchedulerLost(one_line(f"{type(error).__name__}: {error}", 200)) from None
+            raise SchedulerLost(type(error).__name__) from None
         self._counted = time.monotonic()
         self._most = max(self._most, AHEAD * threads)
         if threads:
