@@ -64,12 +64,14 @@ def _speed_up(console: Console, rounds: int, scenarios: int) -> Table:
         for seed in range(rounds + 1):  # the first one is not counted: workers derive what all units need
             work = _real(seed, scenarios)
             for number in (1, 2) if seed % 2 else (2, 1):
-                took = _took(work, clients[number])
+                done, took = _done(work, clients[number])
                 if seed:
                     seconds[number] += took
-                    units += work.number if number == 1 else 0
+                    units += done if number == 1 else 0
             if seed:
-                console.print(f"{units} units: {seconds[1]:.0f} s and {seconds[2]:.0f} s, {seconds[1] / seconds[2]:.2f}")
+                console.print(
+                    f"{units} units: {seconds[1]:.0f} s and {seconds[2]:.0f} s, {seconds[1] / seconds[2]:.2f}"
+                )
     table = Table("units", "one worker, s", "two workers, s", "as fast", title="A second worker")
     table.add_row(f"{units:,}", f"{seconds[1]:.1f}", f"{seconds[2]:.1f}", f"{seconds[1] / seconds[2]:.2f}")
     return table
@@ -82,8 +84,8 @@ def _real(seed: int, scenarios: int) -> Work:
         return work_of(read_plan(path))
 
 
-def _took(work: Work, client: Client) -> float:
-    """Seconds until all of ``work`` is done and kept."""
+def _done(work: Work, client: Client) -> tuple[int, float]:
+    """The number of units, and the seconds until all of ``work`` was done and kept."""
     with tempfile.TemporaryDirectory(prefix="ucm-cts-bench-") as folder:
         store = Store(Path(folder) / "units")
         agenda = Agenda(work, store.has)
@@ -92,7 +94,7 @@ def _took(work: Work, client: Client) -> float:
         took = time.perf_counter() - began
         if agenda.lost:
             raise RuntimeError(f"{len(agenda.lost)} units gave no result: {next(iter(agenda.lost.values()))}")
-        return took
+        return agenda.done, took
 
 
 def _busy(workers: int, units: int, seconds: float) -> Table:

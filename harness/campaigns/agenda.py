@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from ucm_cts.harness.campaigns.planning import RunOfPlan, Work
-from ucm_cts.harness.campaigns.units import Conclusion, Slice, Unit, address
+from ucm_cts.harness.campaigns.units import Unit, address
 
 
 @dataclass(frozen=True)
@@ -23,33 +23,33 @@ class Due:
 class Agenda:
     """The units of ``work``; ``is_kept`` says of an address whether its result is there already.
 
-    ``lost``: why units gave no result, by their addresses. ``before``: how many results were there before.
+    ``before``: how many results were there when it began; ``done``: how many came since.
+    ``lost``: why units gave no result, by their addresses; ``names``: what units are called for people.
+    ``conclusions``: the address of the last unit of each run whose parts have ended, by the run's name.
     """
 
     work: Work
     is_kept: Callable[[str], bool]
-    lost: dict[str, str] = field(default_factory=dict)
-    conclusions: dict[str, str] = field(default_factory=dict)
-    """The address of each run's conclusion, by the run's name, once its parts have ended."""
     before: int = 0
     done: int = 0
+    lost: dict[str, str] = field(default_factory=dict)
+    names: dict[str, str] = field(default_factory=dict)
+    conclusions: dict[str, str] = field(default_factory=dict)
     _left: Counter[str] = field(default_factory=Counter)
     _runs_with: dict[str, list[RunOfPlan]] = field(default_factory=dict)
 
     def begin(self) -> Iterator[Due]:
-        """What can be done at once. Units that several runs share are asked for once."""
+        """What can be done at once. A unit that several runs share is asked for once."""
+        for (seed, subject), trial in self.work.trials.items():
+            self.names[address(trial)] = f"{subject}, seed {seed}"
         for run in self.work.runs:
             for part in run.parts:
-                runs = self._runs_with.setdefault(address(part), [])
-                if run not in runs:
-                    runs.append(run)
-                    self._left[run.name] += 1
-        asked: set[str] = set()
-        for unit in self.work.first():
-            place = address(unit)
-            if place in asked:
-                continue
-            asked.add(place)
+                place = address(part)
+                self._runs_with.setdefault(place, []).append(run)
+                self.names[place] = f"{run.name}, purposes {part.first + 1} to {part.end}"
+                self._left[run.name] += 1
+        due = {address(unit): unit for unit in self.work.first()}
+        for place, unit in due.items():
             if self.is_kept(place):
                 self.before += 1
                 yield from self._ended(place)
@@ -64,6 +64,11 @@ class Agenda:
             self.done += 1
         yield from self._ended(due.address)
 
+    @property
+    def number(self) -> int:
+        """How many units there are, the last ones of runs included."""
+        return len(self.names) + sum(run.name not in self.conclusions for run in self.work.runs)
+
     def _ended(self, place: str) -> Iterator[Due]:
         for run in self._runs_with.pop(place, ()):
             self._left[run.name] -= 1
@@ -73,20 +78,13 @@ class Agenda:
     def _conclude(self, run: RunOfPlan) -> Iterator[Due]:
         conclusion = run.conclusion([part for part in run.parts if address(part) in self.lost])
         place = self.conclusions[run.name] = address(conclusion)
+        is_new = place not in self.names
+        self.names[place] = f"{run.name}, its conclusion"
+        if not is_new:  # the same run under another name
+            return
         if self.is_kept(place):
             self.before += 1
         elif conclusion.parts:
             yield Due(conclusion, place, tuple(map(address, conclusion.parts)))
         else:
             self.lost[place] = "none of its parts gave a result"
-
-
-def name_of(unit: Unit, work: Work) -> str:
-    """What ``unit`` is called for people: the run that it is of and which part, or the subject of a trial."""
-    if isinstance(unit, Slice | Conclusion):
-        run = next((one for one in work.runs if one.run == unit.run), None)
-        name = run.name if run is not None else unit.run.adapter
-        return (
-            f"{name}, purposes {unit.first + 1} to {unit.end}" if isinstance(unit, Slice) else f"{name}, its conclusion"
-        )
-    return next((f"{subject}, seed {seed}" for (seed, subject), one in work.trials.items() if one == unit), "a trial")

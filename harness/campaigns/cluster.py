@@ -32,6 +32,9 @@ CORE = "core"
 AHEAD = 2
 """How many units are asked for, for each thread of a worker: one that is done, and the next one."""
 
+SECONDS_TO_CONNECT = 10
+"""How long a scheduler may take to answer at first."""
+
 SECONDS_FOR_WORKERS = 60
 """How long the first worker may take to appear."""
 
@@ -88,7 +91,7 @@ def at(address: str) -> Iterator[Client]:
     from distributed import Client
 
     try:
-        client = Client(address, timeout=10, set_as_default=False)
+        client = Client(address, timeout=SECONDS_TO_CONNECT, set_as_default=False)
     except (OSError, ValueError, TimeoutError, TypeError) as error:
         raise WrongUse(
             f"there is no Dask scheduler at '{address}': {str(error).splitlines()[0]}; start one with 'dask scheduler', or leave out "

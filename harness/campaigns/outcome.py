@@ -10,7 +10,7 @@ import msgspec
 
 import ucm_cts
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.campaigns.agenda import Agenda, name_of
+from ucm_cts.harness.campaigns.agenda import Agenda
 from ucm_cts.harness.campaigns.planning import RunOfPlan, Work
 from ucm_cts.harness.campaigns.store import Store
 from ucm_cts.harness.campaigns.units import GeneratedTrial, Trial, address
@@ -123,15 +123,16 @@ def outcome_of(plan: Path, agenda: Agenda, store: Store) -> Outcome:
         results = [done for unit in _trials(work, seed) if (done := _done(store, address(unit))) is not None]
         matrices[seed] = _matrix(seed, results, len(_trials(work, seed)))
         tests.append(_self_test(seed, matrices[seed], _generated(work, seed, store)))
+    lost = (Lost(agenda.names[place], one_line(why, 400)) for place, why in agenda.lost.items())
     summary = Summary(
         FORMAT,
         ucm_cts.__version__,
         plan.name,
-        work.number,
-        work.number - agenda.before - agenda.done - len(agenda.lost),
+        agenda.number,
+        agenda.number - agenda.before - agenda.done - len(agenda.lost),
         tuple(_line(run, reports.get(run.name), agenda) for run in work.runs),
         tuple(tests),
-        tuple(sorted(_lost(agenda), key=lambda one: one.unit)),
+        tuple(sorted(lost, key=lambda one: one.unit)),
     )
     return Outcome(summary, reports, matrices)
 
@@ -175,13 +176,6 @@ def _line(run: RunOfPlan, report: FrameworkReport | None, agenda: Agenda) -> Run
         report=f"reports/{run.name}/report.html",
         why=one_line(report.incomplete, 300),
     )
-
-
-def _lost(agenda: Agenda) -> Iterator[Lost]:
-    names = {address(unit): name_of(unit, agenda.work) for unit in agenda.work.first()}
-    names |= {place: f"{run}, its conclusion" for run, place in agenda.conclusions.items()}
-    for place, why in agenda.lost.items():
-        yield Lost(names[place], one_line(why, 400))
 
 
 def _trials(work: Work, seed: int) -> list[Trial]:

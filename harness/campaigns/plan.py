@@ -20,13 +20,15 @@ LARGEST = 1 << 20
 """Bytes that a plan may have."""
 
 MOST_SEEDS = 10_000
+"""Seeds that one list may have."""
+
 MOST_SECONDS = 86_400.0
+"""The longest time that a setting can give."""
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,59}")
 
 Seed = Annotated[int, msgspec.Meta(ge=0, lt=2**32)]
 Seeds = Annotated[tuple[Seed, ...], msgspec.Meta(min_length=1, max_length=MOST_SEEDS)]
-_Seconds = Annotated[float, msgspec.Meta(ge=0, le=MOST_SECONDS)]
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, rename="kebab"):
@@ -50,9 +52,9 @@ class Settings(_Table, frozen=True):
     systematic: Annotated[int, msgspec.Meta(ge=0, le=MOST_EXTRA)] | None = None
     virtual_time: bool | None = None
     sandbox: bool | None = None
-    timeout: _Seconds | None = None
+    timeout: Annotated[float, msgspec.Meta(ge=0.1, le=MOST_SECONDS)] | None = None
     memory: Annotated[int, msgspec.Meta(ge=16)] | None = None
-    incident_time: _Seconds | None = None
+    incident_time: Annotated[float, msgspec.Meta(ge=0, le=MOST_SECONDS)] | None = None
 
 
 class SelfTest(_Table, frozen=True):

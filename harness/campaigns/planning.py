@@ -7,13 +7,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
+
 from ucm_cts.harness.campaigns.plan import Plan, PlannedProduct, SelfTest
 from ucm_cts.harness.campaigns.products import (
     executable_digest,
     product_digest,
     purposes_of,
+    statement_at,
     statement_digest,
-    statement_of,
 )
 from ucm_cts.harness.campaigns.units import (
     Conclusion,
@@ -56,11 +58,6 @@ class Work:
     runs: tuple[RunOfPlan, ...]
     trials: Mapping[tuple[int, str], Trial | GeneratedTrial]
 
-    @property
-    def number(self) -> int:
-        """How many units there are, conclusions included."""
-        return sum(len(run.parts) + 1 for run in self.runs) + len(self.trials)
-
     def first(self) -> Iterator[Unit]:
         """The units that need no other one. Those of several runs take turns, so that early results are of all of them."""
         yield from self.trials.values()
@@ -77,46 +74,46 @@ def work_of(plan: Plan) -> Work:
 
 
 def _runs(plan: Plan, product: PlannedProduct) -> Iterator[RunOfPlan]:
+    """The runs of one product: its files are read once."""
     try:
+        endpoint = locate(product.adapter, sandbox=product.sandbox, virtual_time=product.virtual_time)
+        statement = statement_at(product.statement, product.adapter, product.sandbox)
         known = known_today(Path(product.known_failures) if product.known_failures else None)
+        usual = PlannedRun(
+            suite=suite_digest(),
+            product=product_digest(endpoint, product.artifacts),
+            stated=statement_digest(statement),
+            adapter=product.adapter,
+            statement=product.statement,
+            artifacts=product.artifacts,
+            profile="",
+            seed=0,
+            select=product.select,
+            systematic=product.systematic,
+            virtual_time=product.virtual_time,
+            sandbox=product.sandbox,
+            timeout=product.timeout,
+            memory=product.memory,
+            incident_time=product.incident_time,
+        )
         for profile in product.profiles:
+            if profile not in statement.profiles:
+                raise WrongUse(
+                    f"the statement of {product.name} does not claim profile '{profile}'; claim it, or leave it out here"
+                )
+            of_profile = msgspec.structs.replace(usual, profile=profile)
+            purposes = purposes_of(of_profile, statement)
+            if not purposes:
+                raise WrongUse(
+                    f"{product.name} selects '{product.select}', which matches no test purpose of profile {profile}; "
+                    "try a requirement, a clause or an operation"
+                )
             for seed in product.seeds:
-                yield _run(plan, product, profile, seed, known)
+                run = msgspec.structs.replace(of_profile, seed=seed)
+                parts = slices(run, purposes, plan.scenarios)
+                yield RunOfPlan(f"{product.name}/{profile}/seed-{seed}", product.name, run, parts, known)
     except WrongUse as problem:
         raise DocumentError(plan.path, product.line, str(problem)) from None
-
-
-def _run(plan: Plan, product: PlannedProduct, profile: str, seed: int, known: tuple[KnownFailure, ...]) -> RunOfPlan:
-    endpoint = locate(product.adapter, sandbox=product.sandbox, virtual_time=product.virtual_time)
-    run = PlannedRun(
-        suite=suite_digest(),
-        product=product_digest(endpoint, product.artifacts),
-        stated=statement_digest(product.statement, product.adapter, product.sandbox),
-        adapter=product.adapter,
-        statement=product.statement,
-        artifacts=product.artifacts,
-        profile=profile,
-        seed=seed,
-        select=product.select,
-        systematic=product.systematic,
-        virtual_time=product.virtual_time,
-        sandbox=product.sandbox,
-        timeout=product.timeout,
-        memory=product.memory,
-        incident_time=product.incident_time,
-    )
-    if profile not in statement_of(run).profiles:
-        raise WrongUse(
-            f"the statement of {product.name} does not claim profile '{profile}'; claim it, or leave it out here"
-        )
-    purposes = purposes_of(run)
-    if not purposes:
-        raise WrongUse(
-            f"{product.name} selects '{product.select}', which matches no test purpose of profile {profile}; try a requirement, "
-            "a clause or an operation"
-        )
-    name = f"{product.name}/{profile}/seed-{seed}"
-    return RunOfPlan(name, product.name, run, slices(run, purposes, plan.scenarios), known)
 
 
 def _trials(plan: Plan, wanted: SelfTest) -> Iterator[tuple[tuple[int, str], Trial | GeneratedTrial]]:

@@ -5,7 +5,6 @@ The command and every worker call the same functions, so that a worker notices w
 
 from __future__ import annotations
 
-import functools
 import hashlib
 from collections.abc import Sequence
 from pathlib import Path
@@ -30,15 +29,9 @@ def endpoint_of(run: PlannedRun, hidden: Sequence[str] = ()) -> Endpoint:
     return locate(run.adapter, sandbox=run.sandbox, hidden=hidden, virtual_time=run.virtual_time)
 
 
-@functools.cache
 def statement_at(path: str, adapter: str, sandbox: bool) -> Statement:
     """The statement at ``path`` or, if that is empty, the one that goes with ``adapter``. Raises ``DocumentError`` and ``WrongUse``."""
     return stated_by(Path(path) if path else None, adapter, sandbox)
-
-
-def statement_of(run: PlannedRun) -> Statement:
-    """The statement that ``run`` is judged by. Raises ``DocumentError`` and ``WrongUse``."""
-    return statement_at(run.statement, run.adapter, run.sandbox)
 
 
 def limits_of(run: PlannedRun) -> Limits:
@@ -46,20 +39,24 @@ def limits_of(run: PlannedRun) -> Limits:
     return Limits(run.timeout, run.memory, incident_seconds=run.incident_time)
 
 
-def purposes_of(run: PlannedRun) -> tuple[TestPurpose, ...]:
-    """The test purposes of ``run``, in their order; none if it selects none."""
-    return _purposes(run.statement, run.adapter, run.sandbox, run.profile, run.systematic, run.select)
+def purposes_of(run: PlannedRun, statement: Statement) -> tuple[TestPurpose, ...]:
+    """The test purposes of ``run``, whose ``statement`` is given, in their order; none if it selects none."""
+    key = (run.stated, run.profile, run.systematic, run.select)
+    known = _PURPOSES.get(key)
+    if known is None:
+        offered = purposes_for(statement, run.profile, run.systematic)
+        known = select(offered, run.select) if run.select else offered
+        if len(_PURPOSES) >= _MOST_KNOWN:
+            _PURPOSES.clear()
+        _PURPOSES[key] = known
+    return known
 
 
-@functools.lru_cache(maxsize=8)
-def _purposes(
-    statement: str, adapter: str, sandbox: bool, profile: str, systematic: int, expression: str
-) -> tuple[TestPurpose, ...]:
-    offered = purposes_for(statement_at(statement, adapter, sandbox), profile, systematic)
-    return select(offered, expression) if expression else offered
+_MOST_KNOWN = 8
+_PURPOSES: dict[tuple[str, str, int, str], tuple[TestPurpose, ...]] = {}
+"""A worker has many units with the same purposes; by the digest of the statement, profile, systematic and selection."""
 
 
-@functools.cache
 def product_digest(endpoint: Endpoint, artifacts: tuple[str, ...]) -> str:
     """The digest of the adapter's file, of the packages that it imports, and of ``artifacts``. Raises ``WrongUse``.
 
@@ -74,10 +71,8 @@ def product_digest(endpoint: Endpoint, artifacts: tuple[str, ...]) -> str:
     return _digest([(subject.name, subject.sha256) for subject in subjects])
 
 
-@functools.cache
-def statement_digest(path: str, adapter: str, sandbox: bool) -> str:
-    """The digest of the statement's content and of the models that it names. Raises ``DocumentError`` and ``WrongUse``."""
-    statement = statement_at(path, adapter, sandbox)
+def statement_digest(statement: Statement) -> str:
+    """The digest of the content of ``statement`` and of the models that it names."""
     models = [
         (file.name, hashlib.sha256(file.read_bytes()).hexdigest())
         for place in statement.model_paths
@@ -87,18 +82,17 @@ def statement_digest(path: str, adapter: str, sandbox: bool) -> str:
     return _digest((msgspec.structs.replace(statement, folder=""), models))
 
 
-def check_same(run: PlannedRun, endpoint: Endpoint) -> None:
+def check_same(run: PlannedRun, endpoint: Endpoint, statement: Statement) -> None:
     """Raise ``WrongUse`` unless suite, product and statement are here what they were where the plan was read."""
     check_suite(run.suite, suite_digest())
     for what, said, found in (
         (f"the product '{run.adapter}'", run.product, product_digest(endpoint, run.artifacts)),
-        ("its statement", run.stated, statement_digest(run.statement, run.adapter, run.sandbox)),
+        ("its statement", run.stated, statement_digest(statement)),
     ):
         if said != found:
             raise WrongUse(f"{what} differs on this worker from where the plan was read; install the same files there")
 
 
-@functools.cache
 def executable_digest() -> str:
     """The digest of the compiled mutants. Raises ``WrongUse`` if they are not here."""
     try:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 import msgspec
 
@@ -14,7 +15,7 @@ from ucm_cts.harness.campaigns.products import (
     endpoint_of,
     limits_of,
     purposes_of,
-    statement_of,
+    statement_at,
 )
 from ucm_cts.harness.campaigns.units import Conclusion, GeneratedTrial, PlannedRun, Slice, Trial, decoded
 from ucm_cts.harness.catalogue.documents import DocumentError
@@ -23,6 +24,7 @@ from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import asked_by
 from ucm_cts.harness.results.foreign import clean_report
 from ucm_cts.harness.results.known_failures import KnownFailure
@@ -99,9 +101,7 @@ def _done(unit: Slice | Conclusion | Trial | GeneratedTrial, parts: Sequence[byt
 
 def _part(unit: Slice, hidden: Sequence[str]) -> CampaignState:
     """Run the purposes of ``unit`` with the names and payloads that they have in one run of all."""
-    purposes = purposes_of(unit.run)
-    with _driver(unit.run, hidden) as driver:
-        campaign = _campaign(unit.run, driver, ())
+    with _begun(unit.run, (), hidden) as (campaign, purposes):
         campaign.pass_over(purposes[: unit.first])
         for _ in campaign.check(purposes[unit.first : unit.end]):
             pass
@@ -110,10 +110,8 @@ def _part(unit: Slice, hidden: Sequence[str]) -> CampaignState:
 
 def _report(unit: Conclusion, parts: Sequence[CampaignState | None], hidden: Sequence[str]) -> FrameworkReport:
     """Go on from where the parts ended, as ``ucm-cts run --resume`` does: run again what was lost, confirm, and shorten."""
-    run = unit.run
-    purposes = purposes_of(run)
-    with _driver(run, hidden) as driver:
-        campaign = _campaign(run, driver, unit.known)
+    expression = unit.run.select
+    with _begun(unit.run, unit.known, hidden) as (campaign, purposes):
         for state in parts:
             assert state is not None
             campaign.restore(state)
@@ -124,21 +122,20 @@ def _report(unit: Conclusion, parts: Sequence[CampaignState | None], hidden: Seq
         for _ in campaign.shorten():
             pass
         number = len(unit.lost)
-        lost = f"{number} of {number + len(unit.parts)} parts gave no result" if number else ""
-        report = campaign.report(lost)
-    return of_selection(report, run.select, asked_by(purposes, run.select)) if run.select else report
+        report = campaign.report(f"{number} of {number + len(unit.parts)} parts gave no result" if number else "")
+    return of_selection(report, expression, asked_by(purposes, expression)) if expression else report
 
 
-def _driver(run: PlannedRun, hidden: Sequence[str]) -> Driver:
-    endpoint = endpoint_of(run, hidden)
-    check_same(run, endpoint)
-    return Driver(endpoint, run.seed, limits_of(run))
-
-
-def _campaign(run: PlannedRun, driver: Driver, known: Sequence[KnownFailure]) -> Campaign:
-    statement = statement_of(run)
-    check_subject(statement, driver.identity, run.profile)
-    return Campaign(driver, run.profile, known, statement)
+@contextmanager
+def _begun(
+    run: PlannedRun, known: Sequence[KnownFailure], hidden: Sequence[str]
+) -> Iterator[tuple[Campaign, tuple[TestPurpose, ...]]]:
+    """A campaign with a host, and the purposes of ``run``."""
+    endpoint, statement = endpoint_of(run, hidden), statement_at(run.statement, run.adapter, run.sandbox)
+    check_same(run, endpoint, statement)
+    with Driver(endpoint, run.seed, limits_of(run)) as driver:
+        check_subject(statement, driver.identity, run.profile)
+        yield Campaign(driver, run.profile, known, statement), purposes_of(run, statement)
 
 
 def _cleaned(done: Done) -> Done:

@@ -14,7 +14,7 @@ import click
 
 import ucm_cts
 from ucm_cts.harness.campaigns import cluster
-from ucm_cts.harness.campaigns.agenda import Agenda, Due, name_of
+from ucm_cts.harness.campaigns.agenda import Agenda, Due
 from ucm_cts.harness.campaigns.conducting import conduct
 from ucm_cts.harness.campaigns.outcome import PAGE, SUMMARY, Outcome, outcome_of, write_outcome
 from ucm_cts.harness.campaigns.plan import read_plan
@@ -67,7 +67,7 @@ def carry_out_plan(wanted: Wanted) -> None:
         agenda = Agenda(work, store.has)
         ready = list(agenda.begin())
         before = f"{agenda.before} of them kept before"
-        console.say(f"UCM-CTS {ucm_cts.__version__}: {one_line(plan.path.name, 80)}, {work.number} units, {before}")
+        console.say(f"UCM-CTS {ucm_cts.__version__}: {one_line(plan.path.name, 80)}, {agenda.number} units, {before}")
         if wanted.is_dry:
             leave(console, CONFORMANT)
         problem = _conduct(wanted, console, agenda, ready, store, interrupts) if ready else ""
@@ -102,11 +102,11 @@ def _conduct(
             hidden = [str(store.folder.parent)] if wanted.scheduler is None else []
             workers = cluster.DaskWorkers(client, hidden)
             with progress_of(console) as progress:
-                task = progress.add_task("", total=work.number, completed=agenda.before)
+                task = progress.add_task("", total=agenda.number, completed=agenda.before)
 
                 def tell(due: Due) -> None:
                     lost = f"{len(agenda.lost)} without a result, " if agenda.lost else ""
-                    text = f"{lost}{one_line(name_of(due.unit, work), 60)}"
+                    text = f"{lost}{one_line(agenda.names[due.address], 60)}"
                     progress.update(task, completed=agenda.before + agenda.done + len(agenda.lost), description=text)
                     if interrupts.came:
                         raise KeyboardInterrupt

@@ -141,7 +141,16 @@ class Disturbed:
 @contextlib.contextmanager
 def scheduler(port: int) -> Iterator[subprocess.Popen[str]]:
     """A Dask scheduler of its own."""
-    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard"]
+    command = [
+        sys.executable,
+        "-m",
+        "distributed.cli.dask_scheduler",
+        "--host",
+        "127.0.0.1",
+        "--port",
+        str(port),
+        "--no-dashboard",
+    ]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True)
     try:
         yield process
@@ -155,7 +164,17 @@ def dask_workers(port: int, number: int, folder: Path) -> Iterator[subprocess.Po
     """Workers for the scheduler at ``port``, as docs/campaigns.md starts them."""
     command = [
         *(sys.executable, "-m", "distributed.cli.dask_worker", f"tcp://127.0.0.1:{port}"),
-        *("--nworkers", str(number), "--nthreads", "1", "--resources", "core=1", "--no-dashboard", "--memory-limit", "0"),
+        *(
+            "--nworkers",
+            str(number),
+            "--nthreads",
+            "1",
+            "--resources",
+            "core=1",
+            "--no-dashboard",
+            "--memory-limit",
+            "0",
+        ),
     ]
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True)
     try:
