@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import msgspec
 
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
-from ucm_cts.harness.catalogue.requirements import requirements_of
 from ucm_cts.harness.certificates.contents import Claims
 from ucm_cts.harness.certificates.delta import NOT_FROM_TRACES, judged_by_this_suite
 from ucm_cts.harness.certificates.problems import Problem, unreadable
@@ -17,11 +16,10 @@ from ucm_cts.harness.certificates.rejudging import RunPlan, judge_again
 from ucm_cts.harness.execution.recording import RecordError, decoded
 from ucm_cts.harness.hosting.extras import need
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.report.json_report import ReportEntry, to_json
-from ucm_cts.harness.results.foreign import clean_report, one_line
+from ucm_cts.harness.report.json_report import ReportEntry, entry_of
+from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import overall
-from ucm_cts.harness.results.values import Report
 
 
 @dataclass(frozen=True)
@@ -117,9 +115,3 @@ def _with_old(shown: ReportEntry, old: ReportEntry | None) -> ReportEntry:
     return msgspec.structs.replace(
         shown, requirements=requirements, verdict=overall(requirements, shown.incidents, shown.incomplete)
     )
-
-
-def entry_of(report: Report) -> ReportEntry:
-    """``report.json`` of ``report``, as a value."""
-    catalogue = requirements_of(report.profile)
-    return msgspec.json.decode(to_json(clean_report(report), catalogue), type=ReportEntry)

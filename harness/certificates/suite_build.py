@@ -57,6 +57,12 @@ def suite_digest() -> str:
     return _digest_of(_JUDGING)
 
 
+@functools.cache
+def bundled_digest() -> str:
+    """The digest of the same files and of all bundled frameworks, mutants and variants, with what tries them out."""
+    return _digest_of(dict.fromkeys((*_JUDGING, "adapters", "harness/selftest")))
+
+
 def suite_files() -> tuple[Path, ...]:
     """The files that ``suite_digest`` is made of, in their order."""
     return tuple(_files_of(_JUDGING))

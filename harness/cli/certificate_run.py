@@ -14,7 +14,7 @@ from securesystemslib.signer import CryptoSigner
 from ucm_cts.harness.certificates.certifying import Run, certificate, models_of, statement_member, waivers_member
 from ucm_cts.harness.certificates.challenges import Answered, Commitment, answered, now, read_small
 from ucm_cts.harness.certificates.contents import Settings, descriptors, digest
-from ucm_cts.harness.certificates.judging import entry_of, judged_again
+from ucm_cts.harness.certificates.judging import judged_again
 from ucm_cts.harness.certificates.keys import Trust, TrustedKey, signer_of
 from ucm_cts.harness.certificates.problems import Unreadable
 from ucm_cts.harness.certificates.subjects import subjects_of, subjects_of_toolchain
@@ -37,6 +37,7 @@ from ucm_cts.harness.execution.offers import LIMITS
 from ucm_cts.harness.execution.recording import RecordingDriver, encoded
 from ucm_cts.harness.exploring.in_runs import DRAWN_SCENARIOS
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
+from ucm_cts.harness.report.json_report import entry_of
 from ucm_cts.harness.report.write import keep_report, report_folder
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import KnownFailure, known_today

@@ -16,6 +16,7 @@ from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.profiles import PROFILES, TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.cli import options
+from ucm_cts.harness.cli.campaign_command import campaign
 from ucm_cts.harness.cli.certificate_commands import CERTIFICATE_COMMANDS
 from ucm_cts.harness.cli.compare_command import compare
 from ucm_cts.harness.cli.explanation import explanation, overview
@@ -298,6 +299,7 @@ cli.add_command(publish)
 for certificate_command in CERTIFICATE_COMMANDS:
     cli.add_command(certificate_command)
 cli.add_command(history)
+cli.add_command(campaign)
 
 
 def _check_current_folder() -> None:

@@ -23,7 +23,15 @@ from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.tally import Cause, Tally, overall
-from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Effort, Execution, FrameworkReport, TraceEvidence
+from ucm_cts.harness.results.values import (
+    FRAMEWORK_INCIDENTS,
+    Effort,
+    Execution,
+    FrameworkReport,
+    Isolation,
+    TraceEvidence,
+    weakest,
+)
 from ucm_cts.harness.statement.checks import check_statement
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
@@ -74,6 +82,8 @@ class Campaign:
         self._took: dict[str, float] = {}
         self._done: list[str] = []
         self._spent: dict[str, float] = {}
+        self._warned: tuple[str, ...] = ()
+        self._isolations: list[Isolation] = []
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
@@ -143,8 +153,7 @@ class Campaign:
             self._tally.add(Execution(answer.name, answer.scenario, answer.trace), verdicts, ())
             took = answer.trace[-1].t - answer.trace[0].t if answer.trace else 0
             for requirement in sorted(timed_requirements().intersection(verdicts.exercises)):
-                if took < self._took.get(requirement, math.inf):
-                    self._timed[requirement], self._took[requirement] = (answer.name, answer.scenario), took
+                self._keep_quickest(requirement, (answer.name, answer.scenario), took)
             return
         execution = self._driver.revealed(answer)
         confirmed, unconfirmed = self._confirmation.separate(answer, verdicts.findings)
@@ -252,17 +261,33 @@ class Campaign:
     @property
     def state(self) -> CampaignState:
         """What was measured so far, to be restored in another campaign of the same purposes."""
-        return CampaignState(self.report(), tuple(self._done), dict(self._timed))
+        timed, took, causes = dict(self._timed), dict(self._took), self._tally.causes
+        return CampaignState(self.report(), tuple(self._done), timed, took, causes)
 
     def restore(self, state: CampaignState) -> None:
-        """Go on from ``state``. Call it before ``check``."""
-        self._tally.restore(state.report)
+        """Go on from ``state``. Call it before ``check``; for several parts of one run, in their order."""
+        self._tally.restore(state.report, state.causes)
         self._tally.measures.pop(NOT_CONFIRMED, None)  # they will be
-        self._timed.update(state.timed)
+        for requirement, case in state.timed.items():
+            self._keep_quickest(requirement, case, state.took[requirement])
         self._done += state.done
-        self._spent = dict(state.report.effort.seconds)
+        for clause, seconds in state.report.effort.seconds.items():
+            self._spent[clause] = self._spent.get(clause, 0.0) + seconds
         self._began -= state.report.seconds
-        self._started = state.report.started
+        self._started = min(self._started, state.report.started)
+        self._warned = tuple(dict.fromkeys((*self._warned, *state.report.warnings)))
+        self._isolations.append(state.report.isolation)
+
+    def pass_over(self, purposes: Iterable[TestPurpose]) -> None:
+        """Draw names and payloads for ``purposes`` and run nothing: later ones get those that they have in a run of all."""
+        for purpose in purposes:
+            for _, scenario in self._scenarios_of(purpose):
+                self._driver.disguise.scenario(self._payloads.deal(scenario))
+
+    def _keep_quickest(self, requirement: str, case: tuple[str, Scenario], took: float) -> None:
+        """Of the scenarios that keep a requirement that depends on time, the quickest is confirmed."""
+        if took < self._took.get(requirement, math.inf):
+            self._timed[requirement], self._took[requirement] = case, took
 
     def report(self, incomplete: str = "") -> FrameworkReport:
         """All verdicts of the run so far; ``incomplete`` says why it ended early, if it did."""
@@ -279,7 +304,7 @@ class Campaign:
             incidents=incidents,
             adapter=self._driver.adapter,
             adapter_file=self._driver.adapter_file,
-            warnings=self._driver.warnings,
+            warnings=tuple(dict.fromkeys((*self._warned, *self._driver.warnings))),
             suite_version=ucm_cts.__version__,
             seed=self._driver.seed,
             started=self._started,
@@ -294,5 +319,5 @@ class Campaign:
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
             ),
             incomplete=incomplete,
-            isolation=self._driver.isolation,
+            isolation=weakest((*self._isolations, self._driver.isolation)),
         )

@@ -19,8 +19,6 @@ from ucm_cts.reference_models.monitor import Monitor
 SEEDS = 3
 """The scenario of a failure is run again for up to this many runs that did not show it, until one does not show it."""
 
-_WEAKEST_FIRST: tuple[v.Isolation, ...] = ("none", "process", "remote", "bubblewrap")
-
 Steady = Callable[[v.ReportedFinding, int], v.Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
 
@@ -66,7 +64,7 @@ def repeated(reports: Sequence[v.FrameworkReport], steady: Steady) -> v.Framewor
         effort=_effort(reports),
         runs=len(reports),
         incomplete=incomplete,
-        isolation=min((report.isolation for report in reports), key=_WEAKEST_FIRST.index),
+        isolation=v.weakest(report.isolation for report in reports),
     )
 
 

@@ -9,10 +9,11 @@ from typing import Any, Final, Literal, Self
 import msgspec
 
 from ucm_cts.adapters.contract.trace import Event
-from ucm_cts.harness.catalogue.requirements import Level, Requirement
+from ucm_cts.harness.catalogue.requirements import Level, Requirement, requirements_of
 from ucm_cts.harness.report.scope import Scope, scope_of
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, shortest_first
+from ucm_cts.harness.results.foreign import clean_report
 
 SCHEMA_FILE = "report.schema.json"
 
@@ -188,6 +189,12 @@ def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
         **_body(report),
     )
     return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
+
+
+def entry_of(report: v.Report) -> ReportEntry:
+    """``report.json`` of ``report``, as a value."""
+    content = to_json(clean_report(report), requirements_of(report.profile))
+    return msgspec.json.decode(content, type=ReportEntry)
 
 
 def _body(report: v.Report) -> dict[str, Any]:

@@ -24,6 +24,10 @@ Cause = tuple[str, str, str]
 """Requirement, rule and cause: findings that agree in these are one failure."""
 
 
+Causes = tuple[tuple[Cause, tuple[str, ...]], ...]
+"""Causes of failures, each with other requirements that were broken after it in the same scenarios."""
+
+
 def cause_of(finding: Finding) -> Cause:
     """The key by which two findings are the same failure."""
     return finding.requirement, finding.rule, finding.cause
@@ -39,6 +43,7 @@ class Tally:
         self.lost: dict[str, str] = {}
         self.seconds: defaultdict[str, float] = defaultdict(float)
         self._explained: dict[Cause, set[str]] = {}
+        self._before: Counter[str] | None = None
         self._incidents = DistinctIncidents()
         self._untried: dict[str, v.IncidentReport] = {}
         self._left_out: dict[str, str] = {}
@@ -59,16 +64,19 @@ class Tally:
             self.measures.update(verdicts.measures)
         self._observe(verdicts.readings)
         for row, tally in verdicts.rows.items():
-            total = self.rows.setdefault(row, RowTally())
-            total.exercised += tally.exercised
-            total.violated += tally.violated
-            total.readings |= tally.readings
+            self._add_row(row, tally)
         for finding in findings:
             self.add_failure(finding, v.TraceEvidence(execution))
         if findings:
             first = min(findings, key=lambda finding: min(finding.events, default=0))
             broken = {finding.requirement for finding in findings} - {first.requirement}
             self._explained.setdefault(cause_of(first), set()).update(broken)
+
+    def _add_row(self, row: str, tally: RowTally) -> None:
+        total = self.rows.setdefault(row, RowTally())
+        total.exercised += tally.exercised
+        total.violated += tally.violated
+        total.readings |= tally.readings
 
     def _observe(self, readings: Mapping[str, Iterable[str]]) -> None:
         for option, values in readings.items():
@@ -120,8 +128,17 @@ class Tally:
             occurrences = known.occurrences + 1 if known is not None else 1
             self.failures[cause_of(finding)] = msgspec.structs.replace(new, occurrences=occurrences)
             return
-        best = min(known, new, key=lambda one: (bool(one.finding.caused_by), reading_length(one)))
-        self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
+        self.failures[cause_of(finding)] = _shorter(known, new)
+
+    def _join(self, cause: Cause, other: v.ReportedFinding) -> None:
+        """Add what another tally has of ``cause``, as if its executions had come after those of this one."""
+        known = self.failures.get(cause)
+        if known is None:
+            self.failures[cause] = other
+        elif known.unstable and not other.unstable:
+            self.failures[cause] = msgspec.structs.replace(other, occurrences=known.occurrences + other.occurrences)
+        elif not other.unstable:
+            self.failures[cause] = _shorter(known, other)
 
     def replace(self, cause: Cause, finding: Finding, execution: v.Execution) -> None:
         """A shorter execution of the same cause has been found; it does not count as another occurrence."""
@@ -152,18 +169,29 @@ class Tally:
             self.exercised[finding.requirement] += 1
             self.add_failure(finding, v.TraceEvidence(execution))
 
-    def restore(self, report: v.FrameworkReport) -> None:
-        """Add what another tally of the same run had reported. What no run decides must have been added before."""
+    @property
+    def causes(self) -> Causes:
+        """The cause of each failure in the order in which they were met, with the requirements that were broken after it."""
+        return tuple((cause, tuple(sorted(self._explained.get(cause, ())))) for cause in self.failures)
+
+    def restore(self, report: v.FrameworkReport, causes: Causes) -> None:
+        """Add what another tally of the same run, or of a part of it, had reported; ``causes`` are that tally's.
+
+        What no run decides must have been added before: each report has it.
+        """
+        if self._before is None:
+            self._before = self.exercised.copy()
+        measured: dict[Cause, v.ReportedFinding] = {}
         for result in report.requirements:
-            measured = [failed for failed in result.findings if failed.evidence is not None]
-            self.exercised[result.id] = max(self.exercised[result.id], result.exercised)
+            self.exercised[result.id] += result.exercised - self._before[result.id]
             self.seconds[result.id] += result.seconds
-            for failed in measured:
-                cause = cause_of(failed.finding)
-                self.failures[cause] = msgspec.structs.replace(failed, waived="", explains=())
-                self._explained.setdefault(cause, set()).update(failed.explains)
+            measured |= {cause_of(failed.finding): failed for failed in result.findings if failed.evidence is not None}
+        for cause, explained in causes:
+            if cause in measured:
+                self._join(cause, msgspec.structs.replace(measured[cause], waived="", explains=()))
+            self._explained.setdefault(cause, set()).update(explained)
         for row in report.transitions:
-            self.rows[row.row] = RowTally(row.exercised, row.violated, {*row.readings})
+            self._add_row(row.row, RowTally(row.exercised, row.violated, {*row.readings}))
         for incident in report.incidents:
             if incident.incident.kind != "untried":  # their test purposes are run again
                 self._incidents.add_report(incident)
@@ -249,6 +277,12 @@ class Tally:
         empty = RowTally()
         rows = [(row.id, self.rows.get(row.id, empty)) for row in table.rows]
         return tuple(v.TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
+
+
+def _shorter(known: v.ReportedFinding, other: v.ReportedFinding) -> v.ReportedFinding:
+    """The one with the shorter evidence, and the occurrences of both; before all, one that does not follow from another failure."""
+    best = min(known, other, key=lambda one: (bool(one.finding.caused_by), reading_length(one)))
+    return msgspec.structs.replace(best, occurrences=known.occurrences + other.occurrences)
 
 
 def _without_circles(results: Sequence[v.RequirementResult]) -> Iterator[v.RequirementResult]:

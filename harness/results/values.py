@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -181,6 +181,13 @@ class IncidentReport(Value, frozen=True):
 Isolation = Literal["bubblewrap", "process", "none", "remote"]
 """Where the code of the product ran: in a sandbox, where it can neither see nor reach the harness; in processes of the same user;
 in the process of the harness; or somewhere else, behind a socket. ``docs/verdicts.md`` says what each is worth."""
+
+_WEAKEST_FIRST: tuple[Isolation, ...] = ("none", "process", "remote", "bubblewrap")
+
+
+def weakest(isolations: Iterable[Isolation]) -> Isolation:
+    """What the isolation of several parts of a run is worth together."""
+    return min(isolations, key=_WEAKEST_FIRST.index)
 
 
 class Effort(Value, frozen=True):

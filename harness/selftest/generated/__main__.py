@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -17,13 +16,11 @@ from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.selftest.generated import python_programs
 from ucm_cts.harness.selftest.generated.cpp_programs import CONCERNED, EQUIVALENTS, CppFramework, DoesNotCompile
-from ucm_cts.harness.selftest.generated.mutants import GENERATED, GeneratedMutant
+from ucm_cts.harness.selftest.generated.mutants import GENERATED, SEED, GeneratedMutant, drawn
 from ucm_cts.harness.selftest.generated.page import Tally, page
 from ucm_cts.harness.selftest.generated.quick_trial import QuickTrials
 from ucm_cts.harness.selftest.generated.record import Result, append, read_equivalents, read_results
 from ucm_cts.harness.selftest.generated.trial import Outcome, ordered, stated, try_out
-
-SEED = 1
 
 INTRO = """Made by universalmutator, run through profile core; what this means stands in docs/detection.md."""
 
@@ -138,11 +135,8 @@ def _try_cpp(framework: CppFramework, mutant: GeneratedMutant, statement: Statem
 
 
 def _drawn(candidates: list[GeneratedMutant], limit: int | None, part: str) -> list[GeneratedMutant]:
-    """By chance, but the same ones and in the same order each time."""
-    shuffled = sorted(candidates, key=lambda mutant: mutant.key)
-    random.Random(SEED).shuffle(shuffled)
     number, _, parts = part.partition("/")
-    return shuffled[:limit][int(number) - 1 :: int(parts)]
+    return drawn(candidates, limit)[int(number) - 1 :: int(parts)]
 
 
 def _left(drawn: list[GeneratedMutant], known: dict[str, Outcome], again: str) -> Iterator[GeneratedMutant]:

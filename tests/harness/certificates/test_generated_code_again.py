@@ -8,9 +8,10 @@ import msgspec
 import pytest
 from recorded_toolchains import Recorded, recorded, without_times
 
-from ucm_cts.harness.certificates.judging import entry_of, unfinished_compilations
+from ucm_cts.harness.certificates.judging import unfinished_compilations
 from ucm_cts.harness.certificates.toolchain_rejudging import Judged, judge_toolchain_again, of_verifier
 from ucm_cts.harness.hosting.sandbox import why_none
+from ucm_cts.harness.report.json_report import entry_of
 from ucm_cts.harness.results.values import Incident
 from ucm_cts.harness.toolchains.commands import bounded
 from ucm_cts.harness.toolchains.commands.description import Command
