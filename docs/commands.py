@@ -18,6 +18,7 @@ MORE = {
     "commit": "certificates.md",
     "challenge": "certificates.md",
     "history": "ci.md#history",
+    "campaign": "campaigns.md",
     "compare": "report.md#what-changed",
     "publish": "publication.md",
     "explore": "explore.md",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,10 +15,11 @@ from ucm_cts.harness.campaigns.planning import RunOfPlan, Work
 from ucm_cts.harness.campaigns.store import Store
 from ucm_cts.harness.campaigns.units import GeneratedTrial, Trial, address
 from ucm_cts.harness.campaigns.working import Done, unpacked
+from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.order import VERDICTS, count
 from ucm_cts.harness.report.out_folder import OutFolder
 from ucm_cts.harness.report.page import rendered
-from ucm_cts.harness.report.write import Saved, keep_files, keep_report, report_folder
+from ucm_cts.harness.report.write import save_report
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import succeeded
 from ucm_cts.harness.results.values import FrameworkReport, Overall
@@ -137,18 +138,26 @@ def outcome_of(plan: Path, agenda: Agenda, store: Store) -> Outcome:
     return Outcome(summary, reports, matrices)
 
 
-def write_outcome(outcome: Outcome, folder: OutFolder) -> Iterator[Saved]:
-    """Write reports and matrices below the open ``folder``, and the page into it. Yields where something could not be written."""
-    saved = []
-    for name, report in outcome.reports.items():
-        with report_folder(folder.path / "reports" / name) as place:
-            saved.append(keep_report(report, place))
-    for seed, matrix in outcome.matrices.items():
-        with OutFolder(folder.path / _place_of(seed), MATRIX_FILES) as place:
-            saved.append(keep_files(matrix_files(matrix), place, MATRIX_FILES))
+def write_outcome(outcome: Outcome, folder: OutFolder) -> str:
+    """Write reports and matrices below the open ``folder``, and the page into it.
+
+    Returns why something could not be written, empty if all was. Nothing is lost then: the results of the units are kept.
+    """
     content = msgspec.json.format(msgspec.json.encode(outcome.summary), indent=1) + b"\n"
-    saved.append(keep_files({SUMMARY: content, PAGE: to_html(outcome.summary).encode()}, folder, ()))
-    return (one for one in saved if one.problem)
+    try:
+        for name, report in outcome.reports.items():
+            save_report(report, folder.path / "reports" / name)
+        for seed, matrix in outcome.matrices.items():
+            with OutFolder(folder.path / _place_of(seed), MATRIX_FILES) as place:
+                place.save(matrix_files(matrix), MATRIX_FILES)
+        folder.save({SUMMARY: content, PAGE: to_html(outcome.summary).encode()})
+    except WrongUse as problem:
+        return str(problem)
+    except OSError as error:
+        return (
+            f"reports cannot be written below '{folder.path}': {error.strerror or error}; the same command writes them"
+        )
+    return ""
 
 
 def to_html(summary: Summary) -> str:

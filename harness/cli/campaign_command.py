@@ -42,9 +42,9 @@ from ucm_cts.harness.cli.options import out_folder
 def campaign(
     plan: Path, out: Path, scheduler: str | None, workers: int, dashboard: str, database: Path | None, is_dry: bool
 ) -> None:
-    """Run many products, profiles and seeds, and self-tests, on many workers.
+    """Run many products, profiles and seeds on many workers.
 
-    PLAN is a TOML file that names them. Each result is kept in --out as soon as it is there: the same command goes on where an
+    PLAN is a TOML file that names them, and self-tests. Each result is kept in --out as soon as it is there: the same command goes on where an
     earlier one ended, however it ended. The page is index.html. Exit status 1 unless all runs are conformant and all self-tests
     as they should be.
     """

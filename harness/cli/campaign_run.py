@@ -73,17 +73,15 @@ def carry_out_plan(wanted: Wanted) -> None:
         problem = _conduct(wanted, console, agenda, ready, store, interrupts) if ready else ""
         with interrupts.held():
             outcome = outcome_of(wanted.plan, agenda, store)
-            unwritten = [saved.problem for saved in write_outcome(outcome, folder)]
+            unwritten = write_outcome(outcome, folder)
             if database is not None:
                 whole = [r for r in outcome.reports.values() if not (r.incomplete or r.selection)]
                 number = sum(append(database, [entry_of(report) for report in whole]))
                 console.say(f"{number} run{'' if number == 1 else 's'} appended to {wanted.database}")
         _show(console, outcome, wanted.out)
-    for text in (problem, *unwritten):
-        if text:
-            console.file.flush()
-            click.echo(f"ucm-cts: {one_line(text, 600)}", err=True)
     if problem or unwritten:
+        console.file.flush()
+        click.echo(f"ucm-cts: {one_line(problem or unwritten, 600)}", err=True)
         sys.exit(HARNESS_FAILED)
     leave(console, CONFORMANT if outcome.summary.is_well else NOT_CONFORMANT)
 

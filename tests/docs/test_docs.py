@@ -21,6 +21,7 @@ import jsonschema
 import msgspec
 import pytest
 from command_line import report_of, ucm_cts
+from distributed import LocalCluster
 from files import ROOT, guide_files
 
 import ucm_cts as package
@@ -30,6 +31,7 @@ from ucm_cts.adapters.contract.metamodel.writing import Dialect
 from ucm_cts.adapters.mutants.toolchain.registry import mutants as wrong_tool_chains
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.campaigns.plan import SelfTest, Settings
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.cli.commands import cli
@@ -309,6 +311,26 @@ def test_words_of_scenarios() -> None:
     assert set(re.findall(r"`{do: (\w+)", page)) == tags(s.Action)
     others = set(re.findall(r"`(\w+)`", page.partition("**steps**")[2].partition("`bind`")[0]))
     assert others == tags([step for step in get_args(s.Step) if not issubclass(step, s.ContainerCall)])
+
+
+def test_campaign_of_the_page(here: Path) -> None:
+    write_files("docs/campaigns.md")
+    dry, ran = (
+        c for c in commands("ucm-cts campaign") if c.startswith("ucm-cts campaign plan.toml") and "tcp" not in c
+    )
+    outcome = ucm_cts(*dry.split()[1:])
+    assert (outcome.status, outcome.err) == (0, "")
+    with LocalCluster(
+        n_workers=1, processes=False, protocol="tcp", host="127.0.0.1", resources={"core": 1}, dashboard_address=None
+    ) as cluster:
+        outcome = ucm_cts(*ran.split()[1:], "--scheduler", cluster.scheduler_address)
+    assert (outcome.status, outcome.err) == (0, "")
+    for place in column("docs/campaigns.md", r"`([^`]+/)`"):
+        assert any(here.glob(f"ucm-cts-campaign/{re.sub('NAME|PROFILE|N/', '*', place)}")), place
+    keys = set(column("docs/campaigns.md", r"(`[a-z].*?)"))
+    named = {key for cell in keys for key in re.findall(r"`([a-z-]+)`", cell)}
+    known = {field.encode_name for kind in (Settings, SelfTest) for field in msgspec.structs.fields(kind)}
+    assert known - {"adapter", "profiles", "seeds", "names", "quick", "whole", "real-time", "sandbox"} <= named
 
 
 def test_known_failures(here: Path) -> None:

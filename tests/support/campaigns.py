@@ -23,8 +23,8 @@ import psutil
 
 from ucm_cts.harness.campaigns.store import Store
 
-TIMES = ("started", "seconds", "seconds_by_clause", "t")
-"""What two runs of the same do not have in common: in reports, summaries and matrices."""
+TIMES = ("started", "seconds", "seconds_by_clause", "t", "stacks")
+"""What two runs of the same do not have in common: times, and what a dying process printed of its memory."""
 
 
 def without_times(value: Any) -> Any:
