@@ -61,6 +61,7 @@ MODULES = {
         "paced",
         "timed",
         "triggered",
+        "triggered_apart",
         "phases",
         "readings",
         "requests",
