@@ -12,7 +12,7 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.phases import phases_of
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.service_policies import policies_of, policy_elements
-from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, time_out_of
+from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, note_later_calls, time_out_of
 from ucm_cts.reference_models.model.timer_times import earliest, goes_on_after_exceptions
 
 _STARTS = (s.START_PERIODIC, s.START_SPORADIC)
@@ -57,6 +57,7 @@ def _phases(runtime: ObservedRuntime, member: Member) -> list[TimerPhase]:
             else:
                 _take_callback(runtime, phase, known, one)
         found.append(phase)
+    note_later_calls(found, calls)
     return found
 
 

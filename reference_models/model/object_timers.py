@@ -10,7 +10,7 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.phases import phases_of
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.service_policies import policies_of, policy_elements
-from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, span_of
+from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, note_later_calls, span_of
 from ucm_cts.reference_models.model.timer_times import earliest, goes_on_after_exceptions
 
 _STARTS = (s.SCHEDULE_ONCE, s.SCHEDULE_REPEATED)
@@ -70,6 +70,7 @@ class _Reading:
                 else:
                     self._take_trigger(phase, one)
             found.append(phase)
+        note_later_calls(found, self.calls)
         return found
 
     def _take_call(self, phase: TimerPhase, call: MethodCall) -> None:

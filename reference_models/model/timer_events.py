@@ -7,6 +7,7 @@ All times are those of events (``t``), in nanoseconds of the recorder's clock.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
@@ -234,6 +235,7 @@ class TimerPhase:
     ``callbacks``: all of them, up to the end of the operation that ended it.
     ``resumed``: those of them that belong to timers of an earlier phase.
     ``calls``: all calls of the service, or of schedulers and object timers, up to the end of the operation that ended it.
+    ``afterwards``: those that were made later, by executions that had not ended, before the next phase.
     ``executions``: all executions of the component in it, callbacks and others.
     ``readings``: what the component read from its clocks, by method, at any time.
     ``ids``: what object timers said first of their identifiers, by the number under which they came to the body.
@@ -245,6 +247,7 @@ class TimerPhase:
     callbacks: list[TimerCallback] = field(default_factory=list)
     resumed: list[TimerCallback] = field(default_factory=list)
     calls: list[MethodCall] = field(default_factory=list)
+    afterwards: list[MethodCall] = field(default_factory=list)
     executions: list[Execution] = field(default_factory=list)
     readings: Mapping[str, Sequence[ClockReading]] = field(default_factory=dict)
     kind: Kind = "index"
@@ -254,3 +257,11 @@ class TimerPhase:
     def member(self) -> Member:
         """The component."""
         return self.of.member
+
+
+def note_later_calls(phases: Sequence[TimerPhase], calls: Sequence[MethodCall]) -> None:
+    """Gives each of one component's ``phases``, in order, those ``calls`` of its service that were made after it."""
+    for phase, later in itertools.zip_longest(phases, phases[1:]):
+        until = later.of.startup.n if later is not None else None
+        after = (c for c in calls if c.request.n >= phase.of.closed)
+        phase.afterwards = [c for c in after if until is None or c.request.n < until]

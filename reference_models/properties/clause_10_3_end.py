@@ -135,12 +135,10 @@ def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusi
 def _after_restart(
     check: Property, runtime: ObservedRuntime, phase: TimerPhase, later: TimerPhase, waiting: list[Timer]
 ) -> Conclusions:
-    waiting = [timer for timer in waiting if not _is_touched(timer, later)]
-    lasting = [timer for timer in waiting if _outlasts(runtime, timer, later.of.started.t)]
+    waiting = [timer for timer in waiting if not _is_touched(timer, phase, later)]
     resumed = [c for c in later.resumed if c.timer in waiting]
-    stood = later.of.started.t - phase.of.ended_at  # a timer may go on with the rest of its time
-    dues = [due + stood for t in lasting if (due := latest(runtime, t, len(t.callbacks))) is not None]
-    is_over = any(max(due, later.of.started.t + lateness(runtime)) < later.of.ended_at for due in dues)
+    lates = (_resumed_until(runtime, timer, later) for timer in waiting)
+    is_over = any(late is not None and late < later.of.ended_at for late in lates)
     if not resumed and not is_over:
         return
     value = "resumed" if resumed else "dropped"
@@ -155,17 +153,24 @@ def _after_restart(
         )
 
 
-def _outlasts(runtime: ObservedRuntime, timer: Timer, moment: int) -> bool:
-    """Is a round of it certainly due after ``moment``? Those that pass while it cannot call back may be left out, and count."""
-    if timer.rate is None or timer.most is None:
-        return True
-    last = last_expiry(runtime, timer)
-    return last is not None and last > moment
+def _resumed_until(runtime: ObservedRuntime, timer: Timer, later: TimerPhase) -> int | None:
+    """Until when a timer that goes on in a later phase must have called back: with the rest of its time, or when a round is due again. None if
+    that is not known: rounds that pass while it cannot call back may be left out, and count.
+    """
+    started, due = later.of.started.t, latest(runtime, timer, len(timer.callbacks))
+    if due is None or (
+        timer.rate is not None and timer.most is not None and (last_expiry(runtime, timer) or 0) <= started
+    ):
+        return None
+    again = started + (timer.rate.lasts if timer.rate is not None else 0) + lateness(runtime)
+    return max(due + started - timer.phase.of.ended_at, again)
 
 
-def _is_touched(timer: Timer, later: TimerPhase) -> bool:
-    """Did a call of the later phase name its number, or cancel it, or schedule its handler anew?"""
+def _is_touched(timer: Timer, phase: TimerPhase, later: TimerPhase) -> bool:
+    """Did a call after its phase name its number, or cancel it, or schedule its handler anew?"""
+    calls = [*phase.afterwards, *later.calls]
     if timer.kind == "index":
-        calls = (call for call in later.calls if call.request.method != s.IS_CANCELED)
-        return any((call.request.arguments or (None,))[0] == timer.number for call in calls)
-    return any(t.handler == timer.handler for t in later.timers) or any(c in timer.cancels for c in later.calls)
+        changing = (call for call in calls if call.request.method != s.IS_CANCELED)
+        return any((call.request.arguments or (None,))[0] == timer.number for call in changing)
+    cancelling = (call.request.timer for call in calls if call.request.method == s.CANCEL)
+    return any(t.handler == timer.handler for t in later.timers) or any(one in timer.handles for one in cancelling)
