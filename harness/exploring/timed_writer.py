@@ -72,7 +72,7 @@ class _TimedWriter:
         if self.choose((False, False, False, True)):
             plan["exchange"] = (s.HoldAtGate(_INSIDE),)
         called: tuple[Action, ...] = self.choose(
-            ((), (), (self._cancel_own(),), (self._order(None),), (s.HoldAtGate(_INSIDE),), (s.RaiseError(),))
+            ((), (), (self._cancel_own(),), (self._order_inside(),), (s.HoldAtGate(_INSIDE),), (s.RaiseError(),))
         )
         self.components[name] = self._component(self.choose(_EXECUTION), called, plan)
         self.orders[name] = []
@@ -115,6 +115,10 @@ class _TimedWriter:
         )
         found: CallMethod = self.choose(made)
         return found
+
+    def _order_inside(self) -> CallMethod:
+        """What is done in each callback."""
+        return self._order(None)
 
     def _new_call(self) -> Step:
         """It has a thread of its own, as it may be held."""
@@ -172,3 +176,8 @@ class _ScheduledWriter(_TimedWriter):
         )
         found: CallMethod = self.choose(orders)
         return found
+
+    def _order_inside(self) -> CallMethod:
+        """No timers that repeat, which would make as many in each round."""
+        order = self._order(None)
+        return order if order.method != s.SCHEDULE_REPEATED else objects.once(self.choose(_DELAYS[:-1]))

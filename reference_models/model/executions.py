@@ -104,7 +104,7 @@ class Execution(Changing):
     ``enter``, ``call``: how it was entered, and by which call.
     ``gate``: where it is held.
     ``waited``: calls that were seen waiting meanwhile.
-    ``over``, ``left``, ``end``: whether it has ended, when (``t``) and by which event (``n``).
+    ``over``, ``left``, ``end``, ``failed``: whether it has ended, when (``t``), by which event (``n``), and whether with an exception.
     ``earlier``: the body's runs before this one.
     ``met``: other executions that were in the body when this one began, and not among its callers.
     """
@@ -116,6 +116,7 @@ class Execution(Changing):
     over: bool = False
     left: int = 0
     end: int = 0
+    failed: bool = False
     earlier: list[Execution] = []
     met: list[Execution] = []
 
@@ -204,7 +205,7 @@ class Executions:
             if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
                 inside.remove(execution)
                 execution.over = True
-                execution.left, execution.end = exit_.t, exit_.n
+                execution.left, execution.end, execution.failed = exit_.t, exit_.n, exit_.failed
                 self.past[exit_.body].append(execution)
                 return execution
         return None

@@ -12,8 +12,8 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.phases import phases_of
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.service_policies import policies_of, policy_elements
-from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, time_out_of
-from ucm_cts.reference_models.model.timer_times import earliest
+from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, note_later_calls, time_out_of
+from ucm_cts.reference_models.model.timer_times import earliest, goes_on_after_exceptions
 
 _STARTS = (s.START_PERIODIC, s.START_SPORADIC)
 
@@ -57,6 +57,7 @@ def _phases(runtime: ObservedRuntime, member: Member) -> list[TimerPhase]:
             else:
                 _take_callback(runtime, phase, known, one)
         found.append(phase)
+    note_later_calls(found, calls)
     return found
 
 
@@ -80,7 +81,7 @@ def _take_call(runtime: ObservedRuntime, phase: TimerPhase, known: dict[int, Tim
         before.is_contested = before.is_contested or before.call.over > call.request.n
     if call.request.method not in _STARTS:
         return
-    timer = _timer(phase, call, number, arguments)
+    timer = _timer(runtime, phase, call, number, arguments)
     if timer is None:
         return
     if before is not None:
@@ -96,14 +97,16 @@ def _take_call(runtime: ObservedRuntime, phase: TimerPhase, known: dict[int, Tim
         known[number] = timer
 
 
-def _timer(phase: TimerPhase, call: MethodCall, number: int, arguments: tuple[Datum, ...]) -> Timer | None:
+def _timer(
+    runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall, number: int, arguments: tuple[Datum, ...]
+) -> Timer | None:
     times = [time_out_of(one) for one in arguments[1:]]
     delay = times[0] if times else None
     rate = times[1] if len(times) > 1 else None
     if delay is None:
         return None
     is_in_startup = call.request.n < phase.of.started.n
-    return Timer(phase, call, number, delay, rate, is_in_startup)
+    return Timer(phase, call, number, delay, rate, is_in_startup, goes_on=goes_on_after_exceptions(runtime))
 
 
 def _take_callback(

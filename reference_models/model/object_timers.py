@@ -10,8 +10,8 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.phases import phases_of
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.service_policies import policies_of, policy_elements
-from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, span_of
-from ucm_cts.reference_models.model.timer_times import earliest
+from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, note_later_calls, span_of
+from ucm_cts.reference_models.model.timer_times import earliest, goes_on_after_exceptions
 
 _STARTS = (s.SCHEDULE_ONCE, s.SCHEDULE_REPEATED)
 
@@ -70,12 +70,13 @@ class _Reading:
                 else:
                     self._take_trigger(phase, one)
             found.append(phase)
+        note_later_calls(found, self.calls)
         return found
 
     def _take_call(self, phase: TimerPhase, call: MethodCall) -> None:
         request = call.request
         if request.method in _STARTS:
-            timer = _timer(phase, call, len(self.timers) + 1)
+            timer = _timer(self.runtime, phase, call, len(self.timers) + 1)
             if timer is not None:
                 phase.timers.append(timer)
                 self.timers.append(timer)
@@ -170,7 +171,7 @@ def _share_scheduler(timers: list[Timer]) -> bool:
     return len({timer.call.request.port for timer in timers}) == 1
 
 
-def _timer(phase: TimerPhase, call: MethodCall, number: int) -> Timer | None:
+def _timer(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall, number: int) -> Timer | None:
     arguments = call.request.arguments or ()
     times = [span_of(one) for one in arguments[:2]]
     is_repeated = call.request.method == s.SCHEDULE_REPEATED
@@ -186,6 +187,7 @@ def _timer(phase: TimerPhase, call: MethodCall, number: int) -> Timer | None:
         rate if is_repeated else None,
         call.request.n < phase.of.started.n,
         "object",
+        goes_on_after_exceptions(runtime),
         call.request.handler or "",
         rounds if isinstance(rounds, int) else None,
     )

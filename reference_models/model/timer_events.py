@@ -7,6 +7,7 @@ All times are those of events (``t``), in nanoseconds of the recorder's clock.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
@@ -124,6 +125,7 @@ class Timer:
     ``number``: of an index timer; for an object timer, which one of its component it is, from 1.
     ``delay``, ``rate``: what was asked for; sporadic timers, and those with one trigger, have no rate.
     ``kind``: of which kind it is.
+    ``goes_on``: it goes on when a callback raises, as its vendor declares.
     ``handler``, ``max_rounds``: what was asked for an object timer; ``max_rounds`` is None if it has one trigger.
     ``handles``: the numbers under which it came to the body.
     ``cancels``: the calls that cancel it, of an index timer those before its number is started anew.
@@ -142,6 +144,7 @@ class Timer:
     rate: TimeOut | None
     is_in_startup: bool
     kind: Kind = "index"
+    goes_on: bool = False
     handler: str = ""
     max_rounds: int | None = None
     handles: list[int] = field(default_factory=list)
@@ -190,20 +193,36 @@ class Timer:
         return self.most is not None and sum(callback.n < n for callback in self.callbacks) >= self.most
 
     def waits(self, n: int) -> bool:
-        """May it wait at event ``n``? It does until its last callback, or until somebody cancels it."""
-        return not self.has_come(n) and not any(cancel.request.n < n for cancel in self.cancels)
+        """May it wait at event ``n``? It does until its last callback, or until somebody cancels it and that does not fail."""
+        cancels = (cancel for cancel in self.cancels if cancel.reply is None or not cancel.reply.failed)
+        return not self.has_come(n) and not any(cancel.request.n < n for cancel in cancels)
 
     @property
     def cancelled(self) -> MethodCall | None:
-        """The call that cancelled it while it waited; None if none did."""
-        for cancel in self.cancels:
-            return None if self.has_come(cancel.request.n) else cancel
-        return None
+        """The call that cancelled it while it waited; None if none did. A call that failed cancels nothing."""
+        calls = (cancel for cancel in self.cancels if cancel.reply is None or not cancel.reply.failed)
+        first = next(calls, None)
+        return first if first is not None and not self.has_come(first.request.n) else None
+
+    @property
+    def raised(self) -> Execution | None:
+        """The first callback that raised."""
+        return next((c.execution for c in self.callbacks if c.execution.failed), None)
+
+    @property
+    def failure(self) -> Execution | None:
+        """The same, if that may have ended it."""
+        return None if self.rate is None or self.goes_on else self.raised
+
+    def may_have_failed(self, n: int) -> bool:
+        """May an exception of a callback have ended it before event ``n``?"""
+        return self.failure is not None and self.failure.end < n
 
     @property
     def until(self) -> tuple[int, int]:
-        """The event, and the moment, from which it need not call back any more: it is cancelled, or its phase ends."""
+        """The event, and the moment, from which it need not call back any more: it is cancelled, a callback raised, or its phase ends."""
         ends = [(c.request.n, c.request.t) for c in (*self.cancels, *([self.again] if self.again else []))]
+        ends += [(self.failure.end, self.failure.left)] if self.failure is not None else []
         return min([*ends, (self.phase.of.until, self.phase.of.ended_at)])
 
 
@@ -216,6 +235,7 @@ class TimerPhase:
     ``callbacks``: all of them, up to the end of the operation that ended it.
     ``resumed``: those of them that belong to timers of an earlier phase.
     ``calls``: all calls of the service, or of schedulers and object timers, up to the end of the operation that ended it.
+    ``afterwards``: those that were made later, by executions that had not ended, before the next phase.
     ``executions``: all executions of the component in it, callbacks and others.
     ``readings``: what the component read from its clocks, by method, at any time.
     ``ids``: what object timers said first of their identifiers, by the number under which they came to the body.
@@ -227,6 +247,7 @@ class TimerPhase:
     callbacks: list[TimerCallback] = field(default_factory=list)
     resumed: list[TimerCallback] = field(default_factory=list)
     calls: list[MethodCall] = field(default_factory=list)
+    afterwards: list[MethodCall] = field(default_factory=list)
     executions: list[Execution] = field(default_factory=list)
     readings: Mapping[str, Sequence[ClockReading]] = field(default_factory=dict)
     kind: Kind = "index"
@@ -236,3 +257,11 @@ class TimerPhase:
     def member(self) -> Member:
         """The component."""
         return self.of.member
+
+
+def note_later_calls(phases: Sequence[TimerPhase], calls: Sequence[MethodCall]) -> None:
+    """Gives each of one component's ``phases``, in order, those ``calls`` of its service that were made after it."""
+    for phase, later in itertools.zip_longest(phases, phases[1:]):
+        until = later.of.startup.n if later is not None else None
+        after = (c for c in calls if c.request.n >= phase.of.closed)
+        phase.afterwards = [c for c in after if until is None or c.request.n < until]

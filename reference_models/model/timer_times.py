@@ -45,6 +45,16 @@ def latest(runtime: ObservedRuntime, timer: Timer, number: int) -> int | None:
     return max(due, end.t + lateness(runtime)) if timer.is_in_startup and end is not None else due
 
 
+def goes_on_after_exceptions(runtime: ObservedRuntime) -> bool:
+    """Do timers that repeat go on when a callback of theirs raises, as their vendor declares?"""
+    return runtime.ics.reading("callback-exception") == "continues"
+
+
+def last_expiry(runtime: ObservedRuntime, timer: Timer) -> int | None:
+    """Before when ``timer`` cannot have made its last round, also if others were left out; None if it has no end, or that is not known."""
+    return None if timer.most is None else earliest(runtime, timer, timer.most - 1)
+
+
 def first_after(runtime: ObservedRuntime, timer: Timer) -> int:
     """How long after its delay the first callback of ``timer`` is due, in nanoseconds."""
     return _after(runtime, timer, 0)
@@ -145,6 +155,12 @@ def is_kept_out(runtime: ObservedRuntime, timer: Timer, callback: TimerCallback,
     )
 
 
+def is_late(runtime: ObservedRuntime, timer: Timer, number: int) -> bool:
+    """Did callback ``number`` come so late that something kept it out? Then it need not be the one of that number."""
+    due = latest(runtime, timer, number)
+    return due is None or timer.callbacks[number].t > due
+
+
 def overrun(runtime: ObservedRuntime, timer: Timer) -> int:
     """The number of the first callback of a periodic ``timer`` that may have come at another time because something lasted too long; that
     of its callbacks if there is none.
@@ -154,14 +170,18 @@ def overrun(runtime: ObservedRuntime, timer: Timer) -> int:
     return timer.disturbed
 
 
+def sure_rounds(runtime: ObservedRuntime, timer: Timer) -> int:
+    """How many of its callbacks, from the first one, are certainly those of its first rounds."""
+    number = overrun(runtime, timer)
+    is_own = number < len(timer.callbacks) and (timer.rate is None or not is_late(runtime, timer, number))
+    return number + is_own
+
+
 def _overrun(runtime: ObservedRuntime, timer: Timer) -> int:
     if timer.rate is None:
         return len(timer.callbacks)
     for number, callback in enumerate(timer.callbacks):
-        due = latest(runtime, timer, number)
-        if due is None:
-            return number
         left = callback.execution.left if callback.execution.over else callback.t + timer.rate.lasts
-        if callback.t > due or left - callback.t >= timer.rate.lasts - lateness(runtime):
+        if is_late(runtime, timer, number) or left - callback.t >= timer.rate.lasts - lateness(runtime):
             return number
     return len(timer.callbacks)

@@ -136,6 +136,8 @@ def _certainly_waits(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCa
     timer = _asked(phase, call)
     if timer is None or not timer.has_usual_times or timer.is_in_startup or not timer.waits(call.request.n):
         return False
+    if timer.may_have_failed(call.over):
+        return False
     due = earliest(runtime, timer, sum(c.n < call.request.n for c in timer.callbacks))
     return due is not None and call.reply is not None and call.reply.t < due
 
@@ -168,7 +170,13 @@ def _wait_together(runtime: ObservedRuntime, one: Timer, other: Timer) -> bool:
     begun = other.call
     due = earliest(runtime, one, (one.most or 1) - 1)
     is_before = due is not None and begun.reply is not None and begun.reply.t < due
-    return is_before and one.waits(begun.request.n) and one.call.over < begun.request.n and not one.is_in_startup
+    return (
+        is_before
+        and not one.may_have_failed(begun.over)
+        and one.waits(begun.request.n)
+        and one.call.over < begun.request.n
+        and not one.is_in_startup
+    )
 
 
 @property_at("closed", _STAYS, feature="timers")
@@ -266,8 +274,8 @@ def _done(timer: Timer, n: int) -> int:
 
 
 def _readings_of_rounds(runtime: ObservedRuntime, timer: Timer, call: MethodCall) -> Iterator[tuple[str, int]]:
-    """What the attribute may be under each reading: a trigger that is under way, or due, may be counted or not, and a cancelled timer may
-    have none left.
+    """What the attribute may be under each reading: a trigger that is under way, or due, may be counted or not, a timer with one trigger may
+    have no rounds, and one that was cancelled may have none left.
     """
     most = timer.max_rounds or 1
     yield "requested", most
@@ -282,5 +290,7 @@ def _readings_of_rounds(runtime: ObservedRuntime, timer: Timer, call: MethodCall
     for done in range(_done(timer, call.request.n) - under_way, until + 1):
         yield "done", done
         yield "left", most - done
-    if timer.cancels:
+    if timer.max_rounds is None:
+        yield "done", 0
+    if timer.max_rounds is None or timer.cancels or timer.may_have_failed(call.over):
         yield "left", 0

@@ -10,7 +10,7 @@ from ucm_cts.reference_models.model.object_timers import object_timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.timer_events import TimeOut, Timer, TimerCallback, TimerPhase
-from ucm_cts.reference_models.model.timer_times import MOST, earliest, free_after, latest, overrun
+from ucm_cts.reference_models.model.timer_times import MOST, earliest, free_after, latest, sure_rounds
 from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -85,8 +85,8 @@ def rounds_count_up(check: Property, runtime: ObservedRuntime) -> Conclusions:
             expected = f"triggers of {timer.label} of '{phase.member.lane}' tell rounds that rise by one"
             declared = runtime.ics.reading("first-round")
             is_single = timer.rate is None
-            disturbed = overrun(runtime, timer)
-            if not disturbed and not is_single:
+            sure = sure_rounds(runtime, timer)
+            if not sure:
                 continue  # rounds may have been left out before the first one
             name = _FIRST_ROUNDS.get(first) if isinstance(first, int) and not isinstance(first, bool) else None
             is_right = name is not None and (
@@ -101,7 +101,7 @@ def rounds_count_up(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 )
                 continue
             is_protected = protection_of(phase.member.declaration) not in ("", "unprotected")
-            wrong = _out_of_order(rounds if is_protected else rounds[: disturbed + 1], disturbed + 1)
+            wrong = _out_of_order(rounds if is_protected else rounds[:sure], sure)
             if wrong is not None:
                 yield check.fail(
                     "not by one",
@@ -226,15 +226,15 @@ def _readings_of_delta(runtime: ObservedRuntime, timer: Timer, number: int, told
     callback, tolerance = timer.callbacks[number], lateness(runtime) + granularity(runtime)
     made = timer.call.request.t
     last = timer.callbacks[number - 1].t if number else made
+    before = earliest(runtime, timer, number - 1) if number else None
     due = earliest(runtime, timer, number)
     # a trigger may wait for its component with what it tells
     expired = min(due, callback.t) if due is not None else made
     fitting = set()
     if expired - made - tolerance <= told.lasts <= callback.t - made + tolerance:
         fitting.add("since-scheduled")
-    if expired - last - tolerance <= told.lasts <= callback.t - last + tolerance or (
-        not number and told.lasts <= tolerance
-    ):
+    least, most = expired - last - tolerance, callback.t - (last if before is None else min(before, last)) + tolerance
+    if least <= told.lasts <= most or (not number and told.lasts <= tolerance):
         fitting.add("since-last")
     if due is None or timer.is_in_startup or told.lasts <= max(0, callback.t - due) + tolerance:
         fitting.add("lateness")

@@ -100,6 +100,7 @@ def _is_known(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) -> 
     timer = timers[-1]
     due = earliest(runtime, timer, 0)
     is_open = timer.is_contested or timer.is_in_startup or not timer.waits(call.request.n)
+    is_open = is_open or timer.may_have_failed(call.over)
     if is_open or due is None or call.reply is None:
         return False
     return timer.rate is not None or call.reply.t < due

@@ -5,8 +5,9 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
-from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.executions import Execution
 from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness, shown
@@ -236,6 +237,31 @@ def _kept(check: Property, runtime: ObservedRuntime, timer: Timer, come: Sequenc
     cancels = [t.cancelled for t in timer.phase.timers if t.number != timer.number]
     if any(c is not None and c.reply is not None and span[0] < c.request.n < span[1] for c in cancels):
         yield check.kept(_ONE_ONLY[timer.kind])
+
+
+@property_at("closed", *both(_AGAIN), feature="timers", timed=True)
+def exceptions_of_callbacks(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """Whether a timer that repeats goes on when a callback of it raised is as declared."""
+    for timer in _judged(runtime):
+        raised = timer.raised
+        if timer.rate is None or raised is None:
+            continue
+        later = [c for number, c in enumerate(timer.callbacks) if _is_after(runtime, timer, number, raised)]
+        if not later or (yield from takes(runtime, "callback-exception", "continues")):
+            continue
+        yield check.fail(
+            "continues",
+            expected=f"{timer.label} of '{timer.phase.member.lane}', of which a callback raised, ends, as declared",
+            observed="it called back again",
+            at=(timer.call.request.n, raised.end, later[0].n),
+            requirement=_AGAIN[timer.kind],
+        )
+
+
+def _is_after(runtime: ObservedRuntime, timer: Timer, number: int, raised: Execution) -> bool:
+    """Was callback ``number`` certainly not on its way yet when the one that raised had left?"""
+    due = earliest(runtime, timer, number)
+    return due is not None and due > raised.left and timer.callbacks[number].n > raised.end
 
 
 @property_at("closed", _OWN_START, feature="timers", timed=True)

@@ -16,6 +16,7 @@ from ucm_cts.reference_models.model.timer_times import (
     MOST,
     first_after,
     free_after,
+    is_late,
     latest,
     may_be_delayed,
     overrun,
@@ -190,30 +191,37 @@ def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 
 def _readings_of_overrun(runtime: ObservedRuntime, timer: Timer, number: int) -> set[str]:
-    """The readings of ``timer-overrun`` that explain what came after callback ``number``, which lasted; empty if too little is seen."""
-    held = timer.callbacks[number].execution
-    due = latest(runtime, timer, number)
+    """The readings of ``timer-overrun`` that explain what came after callback ``number``, which lasted, or came late after another execution;
+    empty if too little is seen.
+    """
     assert timer.rate is not None
-    if not held.over or due is None:
+    due, late, rate = latest(runtime, timer, number), lateness(runtime), timer.rate.lasts
+    held = timer.callbacks[number].execution
+    was_kept_out = is_late(runtime, timer, number)
+    if due is None or not held.over:
         return set()
-    late, rate = lateness(runtime), timer.rate.lasts
+    free = free_after(runtime, timer, due, held.enter.t) if was_kept_out else held.left
+    if free is None or (was_kept_out and (free == due or held.left - held.enter.t > late)):
+        return set()
     grid = due - late
-    missed = (held.left - grid) // rate
-    into = held.left - grid - missed * rate
-    if missed < 2 or timer.until[1] < held.left + 2 * rate or not 2 * late < into < rate - 2 * late:
+    passed_by, into = divmod(free - grid, rate)
+    missed = passed_by + was_kept_out
+    if missed < 2 or timer.until[1] < free + 2 * rate or not 2 * late < into < rate - 2 * late:
         return set()
-    after = [c.t for c in timer.callbacks[number + 1 :]]
+    after = [c.t for c in timer.callbacks[number + (not was_kept_out) :]]
     window = min(missed * late, rate - into - late)  # one by one, each within the lateness
-    at_once = sum(moment < held.left + window for moment in after)
-    if at_once >= missed:
+    at_once = sum(moment < free + window for moment in after)
+    following = [m for m in after if m >= free + window]
+    if after and after[0] < free:
+        return set()  # the component is not protected, and nothing was missed
+    if at_once >= missed and not (was_kept_out and missed == 2):
         return {"queued"}
-    if at_once > 1:
+    if at_once > 1 or not following:
         return set()
-    following = [m for m in after if m >= held.left + window]
-    if not following:
-        return set()
-    on_grid = abs(following[0] - (grid + (missed + 1) * rate)) <= late
-    return {("merged" if at_once else "skipped") if on_grid else "shifted"}
+    if abs(following[0] - (grid + (passed_by + 1) * rate)) > late:
+        return {"shifted"}
+    # one that waits for its component may be the missed ones, or the one that was on its way when they were left out
+    return ({"merged", "skipped"} if was_kept_out else {"merged"}) if at_once else {"skipped"}
 
 
 @property_at("closed", _TIME_TOLD, feature="timers", timed=True)

@@ -56,6 +56,7 @@ MODULES = {
         "paced",
         "timed",
         "triggered",
+        "triggered_apart",
         "phases",
         "readings",
         "requests",

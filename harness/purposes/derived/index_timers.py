@@ -53,6 +53,7 @@ def index_timer_purposes() -> list[TestPurpose]:
         _startup(),
         _protection(),
         _missed(),
+        _raising(),
         _unusual(),
         *_dates(),
         _told(),
@@ -264,10 +265,24 @@ def _protection() -> TestPurpose:
 
 
 def _missed() -> TestPurpose:
-    """A callback lasts for more than two periods."""
+    """A callback, or a call, lasts for more than two periods."""
     held = timed(periodic(1, 1, 1, 1), policies=(PASSIVE, TIMERS), on_timeout=(s.HoldAtGate(INSIDE),))
     steps = (tell(1), s.ReachGate(INSIDE), s.Pause(2450), s.OpenGate(INSIDE), after(2.6))
-    return purposes_about("long callbacks", "30 32", ("one", alone(held, *steps)))
+    cases = [("one", alone(held, *steps))]
+    called = timed(periodic(1, 1, 1, 1), s.HoldAtGate(INSIDE), policies=(PASSIVE, TIMERS))
+    late: tuple[Step, ...] = while_held(3450, 2.2)
+    cases.append(("during a call", alone(called, *late)))
+    return purposes_about("long callbacks", "30 32", *cases)
+
+
+def _raising() -> TestPurpose:
+    """Callbacks raise: their timers, others of their component, and one that is started afterwards; those of another component."""
+    orders = (periodic(5, 1, 1, 1), sporadic(6, 2, 1), sporadic(7, 1, 2))
+    raising = timed(*orders, on_timeout=(s.RaiseError(),))
+    other = timed(periodic(5, 1, 1, 1))
+    steps = (tell(1, "raising"), tell(1, "other"), after(3), tell(2, "raising"), after(1))
+    case = ("beside others", together({"raising": raising, "other": other}, *steps))
+    return purposes_about("callbacks raise", "21 26 30 36", case)
 
 
 def _unusual() -> TestPurpose:

@@ -60,6 +60,7 @@ def object_timer_purposes() -> list[TestPurpose]:
         _startup(),
         _protection(),
         _missed(),
+        _raising(),
         _unusual(),
         _told(),
         _in_triggers(),
@@ -173,6 +174,13 @@ def _cancel() -> TestPurpose:
     cases.append(("of a repeated one by another call", alone(stopped, tell(1), s.Pause(400), tell(2), after(1.2))))
     returned = scheduling(repeated(0.4, 0.3, 3, 1), made(s.CANCEL, 1, 2, s.SCHEDULE_REPEATED))
     cases.append(("of a repeated one that came back", alone(returned, tell(1), tell(2), after(1.1))))
+    lasting = scheduling(
+        repeated(0.3, 0.3, 6, 1),
+        policies=(PASSIVE, SCHEDULES),
+        on_trigger=(*_HOLDS, own(s.CANCEL), own(s.IS_CANCELLED)),
+    )
+    long = (tell(1), s.ReachGate(INSIDE), s.Pause(750), s.OpenGate(INSIDE), after(0.7))
+    cases.append(("in its handler, which lasts", alone(lasting, *long)))
     return _about("cancel", "31 32 33", *cases)
 
 
@@ -264,10 +272,24 @@ def _protection() -> TestPurpose:
 
 
 def _missed() -> TestPurpose:
-    """A trigger lasts for more than two intervals."""
+    """A trigger, or a call, lasts for more than two intervals."""
     held = scheduling(repeated(0.4, 0.8, 9, 1), policies=(PASSIVE, SCHEDULES), on_trigger=_HOLDS)
     steps = (tell(1), s.ReachGate(INSIDE), s.Pause(2000), s.OpenGate(INSIDE), after(1.6))
-    return _about("long triggers", "22", ("one", alone(held, *steps)))
+    cases = [("one", alone(held, *steps))]
+    called = scheduling(repeated(0.4, 0.8, 9, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES))
+    late: tuple[Step, ...] = while_held(2400, 1.6)
+    cases.append(("during a call", alone(called, *late)))
+    return _about("long triggers", "22 24 30", *cases)
+
+
+def _raising() -> TestPurpose:
+    """Handlers raise: their timers, others of their component, and one that is made afterwards; those of another component."""
+    orders = (repeated(0.2, 0.3, 4, 1), once(0.7, 1, SECOND), once(0.3, 2, THIRD))
+    raising = scheduling(*orders, on_trigger=(*ASKS, s.RaiseError()))
+    other = scheduling(repeated(0.25, 0.3, 3, 1))
+    steps = (tell(1, "raising"), tell(1, "other"), after(1.1), tell(2, "raising"), after(0.3))
+    case = ("beside others", together({"raising": raising, "other": other}, *steps))
+    return _about("handlers raise", "18 20 23 34", case)
 
 
 def _unusual() -> TestPurpose:

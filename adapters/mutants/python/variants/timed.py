@@ -23,6 +23,7 @@ READINGS_OF_BOTH = {
     "zero-delay": "at-once",
     "is-cancelled": "cancelled",
     "timers-at-stop": "dropped",
+    "callback-exception": "continues",
     "timer-in-startup": "works",
     "timer-overrun": "queued",
     "timer-cancel": "strict",
