@@ -9,6 +9,7 @@ from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.object_timers import object_timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness
+from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import TimeOut, Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_times import MOST, earliest, free_after, latest, sure_rounds
 from ucm_cts.reference_models.properties.clause_10_3 import at_of
@@ -40,13 +41,36 @@ def rounds_are_bounded(check: Property, runtime: ObservedRuntime) -> Conclusions
                     observed=f"it triggered {len(timer.callbacks)} times",
                     at=at_of(timer, *timer.callbacks[: timer.max_rounds + 1]),
                 )
-            elif len(timer.callbacks) == timer.max_rounds and _is_quiet(timer, timer.rate):
-                yield check.kept()
+            elif len(timer.callbacks) == timer.max_rounds:
+                if _is_quiet(timer, timer.rate):
+                    yield check.kept()
+            elif timer.is_started and timer.has_usual_times and _lacks_rounds(runtime, timer):
+                yield check.fail(
+                    "too few",
+                    expected=f"{timer.label} of '{phase.member.lane}' triggers {timer.max_rounds} times, as timer-overrun=queued declares",
+                    observed=f"it triggered {len(timer.callbacks)} times",
+                    at=(
+                        *at_of(timer, *timer.callbacks),
+                        *noticed(runtime, latest(runtime, timer, timer.max_rounds - 1)),
+                    ),
+                )
 
 
 def _is_quiet(timer: Timer, rate: TimeOut) -> bool:
     """Did it stay silent for long after its last round?"""
     return timer.until[1] - timer.callbacks[-1].t > _QUIET * rate.lasts
+
+
+def _lacks_rounds(runtime: ObservedRuntime, timer: Timer) -> bool:
+    """Are rounds missing, of which none may be left out, although all have been due, and nothing keeps them out any more?"""
+    assert timer.max_rounds is not None
+    is_queued = runtime.ics.reading("timer-overrun") == "queued" and runtime.ics.reading("timer-anchor") == "grid"
+    is_there = not timer.is_in_startup or runtime.ics.reading("timer-in-startup") == "works"
+    due = latest(runtime, timer, timer.max_rounds - 1)
+    if due is None or not is_queued or not is_there:
+        return False
+    free = free_after(runtime, timer, max([due, *(c.t for c in timer.callbacks)]), timer.until[1])
+    return free is not None and free + timer.max_rounds * lateness(runtime) < timer.until[1]
 
 
 def _no_rounds(check: Property, runtime: ObservedRuntime, timer: Timer) -> Conclusions:
@@ -75,7 +99,10 @@ def _no_rounds(check: Property, runtime: ObservedRuntime, timer: Timer) -> Concl
 
 @property_at("closed", _COUNTED, feature="timers", timed=True)
 def rounds_count_up(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """The rounds of successive triggers of one timer rise by one from the declared first one; a single trigger has that, or 0."""
+    """The rounds of successive triggers of one timer rise by one from the declared first one, the same for all timers; a single trigger has that,
+    or 0.
+    """
+    claims: set[Datum | None] = set()
     for phase in object_timer_phases(runtime):
         for timer in phase.timers:
             if timer.is_contested or not timer.callbacks or not timer.is_started:
@@ -92,10 +119,12 @@ def rounds_count_up(check: Property, runtime: ObservedRuntime) -> Conclusions:
             is_right = name is not None and (
                 (is_single and first == 0) or (yield from takes(runtime, "first-round", name))
             )
+            claims |= {first} if first or not is_single else set()
+            is_right = is_right and len(claims) < 2
             if not is_right:
                 yield check.fail(
                     "first",
-                    expected=f"{expected}, from {'0 or 1' if declared == 'observed' else declared}",
+                    expected=f"{expected}, from {'0 or 1, the same for all timers' if declared == 'observed' else declared}",
                     observed=f"the first one told {printed(first)}",
                     at=at_of(timer, timer.callbacks[0]),
                 )
@@ -160,9 +189,15 @@ def triggers_have_their_timer(check: Property, runtime: ObservedRuntime) -> Conc
         come = [c.timer for c in phase.callbacks if c.timer is not None and c.timer.phase is phase]
         if is_right and len({timer.handler for timer in come}) > 1:
             yield check.kept(_HANDLER)
-        others = (c for c in phase.callbacks if c.timer in come and c.id is not None)
-        if is_right and any(c.timer is not None and c.timer.handles[0] != c.enter.timer for c in others):
+        asked = (c for c in phase.callbacks if c.timer in come and c.id is not None)
+        known = {(c.enter.port, c.timer.number) for c in asked if c.timer is not None and _was_known(c.timer, c)}
+        if is_right and len(known) > len({handler for handler, _ in known}):
             yield check.kept(_TIMER)
+
+
+def _was_known(timer: Timer, callback: TimerCallback) -> bool:
+    """Had the timer said its identifier before it triggered?"""
+    return timer.handles[0] != callback.enter.timer
 
 
 def _other_timer(runtime: ObservedRuntime, phase: TimerPhase, callback: TimerCallback) -> str:
@@ -197,23 +232,25 @@ def _is_owed(runtime: ObservedRuntime, timer: Timer, callback: TimerCallback) ->
 
 @property_at("closed", _DELTA, feature="timers", timed=True)
 def delta_time_tells(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """delta_time is a time; with a declaration it is that quantity, within timer-lateness."""
+    """delta_time is one quantity for all triggers, the declared one if there is one, within timer-lateness."""
     declared = runtime.ics.reading("delta-time")
+    common = {"since-scheduled", "since-last", "lateness", "requested"}
     for phase in object_timer_phases(runtime):
         for callback in phase.callbacks[:MOST]:
             told, timer = callback.delta, callback.timer
             fitting: set[str] = set()
             if told is not None and timer is not None and not timer.is_contested and timer.phase is phase:
                 fitting = _readings_of_delta(runtime, timer, timer.callbacks.index(callback), told)
+                common &= fitting
                 if len(fitting) == 1:
                     yield from takes(runtime, "delta-time", *fitting)
             elif told is not None or callback.enter.wrong:
                 continue
-            if told is None or declared not in ("observed", *fitting):
+            if told is None or not common or declared not in ("observed", *fitting):
                 yield check.fail(
                     "no time" if told is None else "otherwise",
-                    expected=f"triggers of '{phase.member.lane}' tell a time"
-                    + (f" difference, as declared: {declared}" if declared != "observed" else ""),
+                    expected=f"triggers of '{phase.member.lane}' tell a time difference"
+                    + (f", as declared: {declared}" if declared != "observed" else ", the same one for all triggers"),
                     observed=f"handler '{callback.enter.port}' was told {printed((callback.enter.arguments or (None,))[0])}",
                     at=(*(at_of(timer) if timer is not None else ()), callback.n),
                 )

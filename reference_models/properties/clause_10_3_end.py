@@ -13,7 +13,7 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness
 from ucm_cts.reference_models.model.phases import is_outside
 from ucm_cts.reference_models.model.service_policies import has_timers
-from ucm_cts.reference_models.model.timer_events import Timer, TimerPhase
+from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_times import earliest, free_after, last_expiry, latest
 from ucm_cts.reference_models.model.timers import all_timer_phases
 from ucm_cts.reference_models.properties.clause_10_3 import PHASES, OfKind
@@ -44,6 +44,16 @@ def cancelled_timers_are_silent(check: Property, runtime: ObservedRuntime) -> Co
                 )
             elif _would_have_come(runtime, timer, cancel):
                 yield check.kept(_CANCELS[timer.kind])
+        for callback in phase.resumed:
+            if callback.timer is not None and _is_after(runtime, phase, callback.timer, callback):
+                yield check.fail(
+                    "goes on",
+                    expected=f"{callback.timer.label} of '{phase.member.lane}', of an earlier phase, calls back no more once it is cancelled",
+                    observed="it called back after that",
+                    at=(callback.timer.call.request.n, *(c.request.n for c in callback.timer.cancels), callback.n),
+                    requirement=_CANCELS[phase.kind],
+                )
+                break
 
 
 def _is_tolerated(runtime: ObservedRuntime, phase: TimerPhase, timer: Timer, cancel: MethodCall, number: int) -> bool:
@@ -56,6 +66,24 @@ def _is_tolerated(runtime: ObservedRuntime, phase: TimerPhase, timer: Timer, can
     callback = timer.callbacks[number]
     free = free_after(runtime, timer, cancel.reply.t, callback.t)
     return free is None or callback.t <= free + lateness(runtime)
+
+
+def _is_after(runtime: ObservedRuntime, phase: TimerPhase, timer: Timer, callback: TimerCallback) -> bool:
+    """Did a timer of an earlier phase, which was cancelled in this one and not replaced, call back when it cannot have been on its way?"""
+    cancel = timer.cancelled
+    is_replaced = any(t.number == timer.number or t.handler == timer.handler != "" for t in phase.timers)
+    if (
+        cancel is None
+        or cancel.reply is None
+        or cancel not in phase.calls
+        or is_replaced
+        or callback.n < cancel.reply.n
+    ):
+        return False
+    if runtime.ics.reading("timer-cancel") == "strict":
+        return True
+    free = free_after(runtime, timer, cancel.reply.t, callback.t)
+    return free is not None and callback.t > free + lateness(runtime)
 
 
 def _would_have_come(runtime: ObservedRuntime, timer: Timer, cancel: MethodCall) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.executions import Execution
 from ucm_cts.reference_models.model.index_timers import timer_phases
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -48,8 +49,17 @@ _USUAL_NUMBERS = range(1, 256)
 
 
 def _judged(runtime: ObservedRuntime) -> list[Timer]:
-    """The timers with usual times whose number is theirs alone."""
-    return [t for t in all_timers(runtime) if t.has_usual_times and not t.is_contested and t.is_started]
+    """The timers with usual times whose number is theirs alone, and those without a delay that do call back again and again."""
+    plain = [t for t in all_timers(runtime) if not t.is_contested and t.is_started]
+    return [t for t in plain if t.has_usual_times or _begins_at_once(t)]
+
+
+def _begins_at_once(timer: Timer) -> bool:
+    """Has it no delay, and an interval, and calls back? Its first expiry comes while its component is executed, which a policy may protect."""
+    is_protected = protection_of(timer.phase.member.declaration) not in ("", "unprotected")
+    is_plain = timer.has_no_delay and timer.max_rounds != 0 and not timer.is_in_startup
+    rate = timer.rate
+    return is_plain and not is_protected and rate is not None and not rate.is_absolute and bool(timer.callbacks)
 
 
 @property_at("closed", *both(EARLY, _FIRST, RATE), feature="timers", timed=True)
@@ -132,15 +142,21 @@ def _late(check: Property, runtime: ObservedRuntime, timer: Timer) -> Finding | 
         limit = due if free == due else free + lateness(runtime)
         if callback is None:
             is_missing = limit < timer.until[1]
-            return _untimely(check, runtime, timer, number, None, _is_busy(timer, due)) if is_missing else None
+            return _untimely(check, runtime, timer, number, None, _is_busy(runtime, timer, due)) if is_missing else None
         if callback.t > limit:
-            return _untimely(check, runtime, timer, number, callback.t - limit, _is_busy(timer, due))
+            return _untimely(check, runtime, timer, number, callback.t - limit, _is_busy(runtime, timer, due))
     return None
 
 
-def _is_busy(timer: Timer, due: int) -> bool:
-    """Was its component executed when it was due?"""
-    return any(e.enter.t <= due and (not e.over or e.left > due) for e in timer.phase.executions)
+def _is_busy(runtime: ObservedRuntime, timer: Timer, due: int) -> bool:
+    """Was its component executed when it was due, for longer than a moment?"""
+    return any(e.enter.t <= due and (not e.over or e.left > due) for e in _long_executions(runtime, timer))
+
+
+def _long_executions(runtime: ObservedRuntime, timer: Timer) -> list[Execution]:
+    """The executions of its component that may keep more than one callback out."""
+    late = lateness(runtime)
+    return [e for e in timer.phase.executions if not e.over or e.left - e.enter.t > late]
 
 
 def _stops(
@@ -150,7 +166,7 @@ def _stops(
     assert timer.rate is not None
     if timer.most is not None:
         return None  # what a bounded one does after that, its rounds tell
-    ends = (e.left if e.over else timer.until[1] for e in timer.phase.executions)
+    ends = (e.left if e.over else timer.until[1] for e in _long_executions(runtime, timer))
     quiet_since = max([free, *(callback.t for callback in timer.callbacks[-1:]), *ends])
     if timer.until[1] - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
         return _untimely(check, runtime, timer, len(timer.callbacks), None, was_busy)
@@ -184,7 +200,8 @@ def _why_missing(runtime: ObservedRuntime, timer: Timer, number: int, was_busy: 
     others = [t for t in all_timers(runtime) if t is not timer and t.call.request.n < timer.until[0]]
     elsewhere = [t for t in others if _shares_number(t, timer)]
     here = [t for t in others if t.phase is timer.phase]
-    cancelled = [*here, *(t for t in others if t.kind == timer.kind == "object" and t.number == timer.number)]
+    beside = [t for t in others if t.phase.member is timer.phase.member and t.kind != timer.kind]
+    cancelled = [*here, *beside, *(t for t in others if t.kind == timer.kind == "object" and t.number == timer.number)]
     if any(t.call.request.n > timer.call.request.n or t.cancels for t in elsewhere):
         return _APART
     due = latest(runtime, timer, number) or timer.until[1]

@@ -87,6 +87,7 @@ MODULES = {
             "object_timer_answers",
             "object_timer_ends",
             "object_timer_service",
+            "object_timer_situations",
             "object_timer_told",
             "object_timer_triggers",
         ),

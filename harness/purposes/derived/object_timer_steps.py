@@ -32,9 +32,11 @@ def repeated(delay: float, interval: float, rounds: int, told: int | None = None
     return CallMethod(SCHEDULER, s.SCHEDULE_REPEATED, arguments, given=told, handler=handler)
 
 
-def made(method: str, nth: int = 1, told: int | None = None, by: str = s.SCHEDULE_ONCE) -> CallMethod:
-    """Calls a method of the ``nth`` timer that the scheduler returned ``by`` this method."""
-    return CallMethod(SCHEDULER, method, given=told, on=TimerFrom(by, nth))
+def made(
+    method: str, nth: int = 1, told: int | None = None, by: str = s.SCHEDULE_ONCE, scheduler: str = SCHEDULER
+) -> CallMethod:
+    """Calls a method of the ``nth`` timer that schedulers returned ``by`` this method."""
+    return CallMethod(scheduler, method, given=told, on=TimerFrom(by, nth))
 
 
 def own(method: str, nth: int = 0, told: int | None = None) -> CallMethod:

@@ -36,11 +36,15 @@ from ucm_cts.harness.purposes.derived.timer_steps import (
     together,
     while_held,
 )
+from ucm_cts.harness.purposes.derived.timer_steps import cancel as index_cancel
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _HOLDS = (s.HoldAtGate(INSIDE),)
 _LONG = (2.2, 5, 257, 2148, 4295, 65537, 4294968)
 """Delays, in seconds, that not every type of times has."""
+
+_DOZENS = 103
+"""So many timers wait at once."""
 
 _about = functools.partial(timer_steps.purposes_about, kind="object")
 
@@ -78,10 +82,28 @@ def _support() -> TestPurpose:
     cases.append(("beside a component without", together(plain, tell(1, "timed"), tell(1, "plain"), after(0.2))))
     kinds = scheduling(once(0.3, 1), sporadic(5, 1, 1), policies=(SCHEDULES, TIMERS), on_trigger=())
     cases.append(("both kinds", alone(kinds, tell(1), after(1))))
-    other = Policy(s.OBJECT_TIMERS, element="other.timer_scheduler")
-    both = (once(0.3, 1), once(0.6, 1, SECOND, "other.timer_scheduler"))
-    cases.append(("two policies", alone(scheduling(*both, policies=(SCHEDULES, other)), tell(1), after(0.6))))
+    apart = (
+        sporadic(1, 1, 1),
+        sporadic(2, 2, 1),
+        once(1.5, 1),
+        once(2, 1, SECOND),
+        index_cancel(1, 2),
+        made(s.CANCEL, 2, 2),
+    )
+    kinds = scheduling(*apart, policies=(SCHEDULES, TIMERS), on_trigger=())
+    cases.append(("both kinds, of which one each is cancelled", alone(kinds, tell(1), s.Pause(100), tell(2), after(2))))
+    cases.append(("two policies", alone(_two_schedulers(), *map(tell, (1, 2)), after(0.6))))
     return _about("support", "01 16 17 .10", *cases)
+
+
+def _two_schedulers() -> Declaration:
+    """Two timers of each of two schedulers. Of the first one the first is cancelled, of the other one the second."""
+    element = "other.timer_scheduler"
+    other = Policy(s.OBJECT_TIMERS, element=element)
+    orders = (once(0.3, 1), once(0.4, 1), once(0.5, 1, SECOND, element), once(0.6, 1, THIRD, element))
+    return scheduling(
+        *orders, made(s.CANCEL, 1, 2), made(s.CANCEL, 4, 2, scheduler=element), policies=(SCHEDULES, other)
+    )
 
 
 def _once() -> TestPurpose:
@@ -106,11 +128,15 @@ def _several() -> TestPurpose:
     cases = [("five", alone(scheduling(*orders, repeated(0.45, 0.3, 2, 1, THIRD)), tell(1), after(1.2)))]
     sooner = scheduling(once(0.9, 1), once(0.2, 2, SECOND))
     cases.append(("one that is due before those that wait", alone(sooner, tell(1), s.Pause(100), tell(2), after(0.9))))
-    many = identified(*(once(0.2 + 0.05 * (number % 7), 1) for number in range(24)))
-    others = {"second": scheduling(*identified(once(0.4, 1)))}
-    cases.append(
-        ("dozens", together({"many": scheduling(*many), **others}, tell(1, "many"), tell(1, "second"), after(0.6)))
+    many = scheduling(
+        *identified(*(once(0.5 + 0.05 * (number % 11), 1) for number in range(_DOZENS))), on_trigger=ASKS[:1]
     )
+    others = {"second": scheduling(*identified(once(0.4, 1)))}
+    cases.append(("dozens", together({"many": many, **others}, tell(1, "many"), tell(1, "second"), after(1))))
+    parallel = scheduling(once(0.3, 1), once(0.4, 2, SECOND), once(0.5, 3, THIRD), policies=(UNPROTECTED, SCHEDULES))
+    callers = [s.Invoke("tell", value, thread=f"teller {value}") for value in (1, 2, 3)]
+    joined = [s.Join(caller.thread or "") for caller in callers]
+    cases.append(("by three calls at once", alone(parallel, *callers, *joined, after(0.5))))
     return _about("several", "19 20 25 26 28 34", *cases)
 
 
@@ -118,6 +144,8 @@ def _repeated() -> TestPurpose:
     """Start delays and intervals that differ, one, two and five rounds, and a long series."""
     rounds = (repeated(0.5, 0.2, 5, 1), repeated(0.2, 0.5, 2, 1, SECOND), repeated(0.3, 0.4, 1, 1, THIRD))
     cases = [("rounds", alone(scheduling(*rounds), tell(1), after(2.2)))]
+    two = scheduling(repeated(0.3, 0.3, 3, 1), repeated(0.4, 0.3, 3, 1, SECOND), once(0.5, 1, THIRD))
+    cases.append(("two of one length", alone(two, tell(1), after(1.0))))
     series = (tell(1), after(6.9))
     cases.append(("forty", alone(scheduling(repeated(0.3, 0.16, 40, 1), on_trigger=()), *series)))
     many = scheduling(
@@ -152,10 +180,13 @@ def _asked() -> TestPurpose:
 def _cancel() -> TestPurpose:
     """Before expiry, in the own handler, one of three, twice, too late, and while the component is busy."""
     asks = tuple(made(method, 1, 3) for method in (s.IS_CANCELLED, s.TIMER_ID, s.TIMER_ROUNDS))
-    before = scheduling(*identified(once(0.4, 1)), *asks, made(s.CANCEL, 1, 2))
-    cases = [("before expiry", alone(before, tell(1), tell(3), tell(2), tell(3), after(1.3), tell(3)))]
+    before = scheduling(*identified(once(0.4, 1)), *asks, made(s.CANCEL, 1, 2), once(0.2, 4, SECOND))
+    later = (tell(4), tell(3), after(1.3), tell(3))
+    cases = [("before expiry", alone(before, *map(tell, (1, 3, 2, 3)), *later))]
     ends = scheduling(repeated(0.2, 0.3, 5, 1), on_trigger=(*ASKS, own(s.CANCEL), *ASKS))
     cases.append(("in its handler", alone(ends, tell(1), after(1.2))))
+    third = scheduling(repeated(0.2, 0.3, 6, 1), on_trigger=(own(s.CANCEL, 3), own(s.IS_CANCELLED)))
+    cases.append(("in its handler, in the third round", alone(third, tell(1), after(1.2))))
     three = (*identified(once(0.4, 1), once(0.5, 1), once(0.6, 1)), made(s.CANCEL, 2, 2), made(s.IS_CANCELLED, 1, 2))
     cases.append(("one of three", alone(scheduling(*three), tell(1), s.Pause(100), tell(2), after(0.6))))
     rest = (made(s.CANCEL, 1, 2), made(s.IS_CANCELLED, 1, 2), made(s.IS_CANCELLED, 2, 2))
@@ -212,6 +243,14 @@ def _phases() -> TestPurpose:
     cases = [("stop", alone(body, *pending, after(0.8), s.Start(), tell(2), after(0.2)))]
     cases.append(("restart at once", alone(body, *pending, s.Start(), tell(2), after(0.9))))
     cases.append(("removal", alone(body, *pending, s.RemoveComponent("timed"), after(0.8))))
+    ended = scheduling(once(0.9, 1), once(1, 1, SECOND), made(s.CANCEL, 1, 2))
+    cases.append(("restart, and a cancel", alone(ended, *pending, s.Start(), tell(2), after(0.9))))
+    waits = scheduling(once(0.3, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES))
+    stopped = (
+        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(INSIDE), s.Pause(600), s.Stop(thread="stopper")),
+        *(s.Settle("stopper"), s.OpenGate(INSIDE), s.Join("holder"), s.Join("stopper"), after(0)),
+    )
+    cases.append(("stop while one waits for its component", alone(waits, *stopped)))
     inner = (
         *(s.CreateContainer("inner"), s.AddComponent("timed", "inner")),
         *(s.GetPortElement("timed", PORT, "tell", "inner"), s.Start("inner"), tell(1), s.Pause(100)),
@@ -251,6 +290,9 @@ def _protection() -> TestPurpose:
     rounds = scheduling(repeated(0.2, 0.4, 3, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES))
     steps = while_held(500, 0.8)
     cases.append(("during a call, rounds", alone(rounds, *steps)))
+    begun = (repeated(0.3, 0.4, 3),)
+    second = scheduling(*_HOLDS, policies=(PASSIVE, SCHEDULES), plan={"on_startup": begun})
+    cases.append(("during a call, the second round", alone(second, s.Pause(450), *while_held(500, 0.2))))
     running = scheduling(policies=(SELF, SCHEDULES), plan={"on_startup": (once(0.3),), "run": _HOLDS})
     run = (s.ReachGate(INSIDE), s.Pause(700), s.OpenGate(INSIDE), s.Pause(200))
     cases.append(("during run", alone(running, *run)))
@@ -276,7 +318,7 @@ def _missed() -> TestPurpose:
     held = scheduling(repeated(0.4, 0.8, 9, 1), policies=(PASSIVE, SCHEDULES), on_trigger=_HOLDS)
     steps = (tell(1), s.ReachGate(INSIDE), s.Pause(2000), s.OpenGate(INSIDE), after(1.6))
     cases = [("one", alone(held, *steps))]
-    called = scheduling(repeated(0.4, 0.8, 9, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES))
+    called = scheduling(repeated(0.4, 0.8, 5, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES))
     late: tuple[Step, ...] = while_held(2400, 1.6)
     cases.append(("during a call", alone(called, *late)))
     return _about("long triggers", "22 24 30", *cases)
@@ -297,8 +339,8 @@ def _unusual() -> TestPurpose:
     cases = [("no delay", alone(scheduling(once(0, 1), once(0.3, 1, SECOND)), tell(1), after(0.3)))]
     start = scheduling(repeated(0, 0.3, 3, 1))
     cases.append(("no delay, and an interval", alone(start, tell(1), after(0.6))))
-    none = scheduling(repeated(0.2, 0.2, 0, 1), once(0.3, 1, SECOND))
-    cases.append(("no rounds", alone(none, tell(1), after(1.2))))
+    none = scheduling(repeated(0.2, 0.2, 0, 1), once(0.3, 1, SECOND), own(s.CANCEL, 1, 2))
+    cases.append(("no rounds", alone(none, tell(1), after(1.8), tell(2), after(0.4))))
     return _about("unusual times", "19 23", *cases)
 
 
@@ -316,6 +358,8 @@ def _in_triggers() -> TestPurpose:
     """Timers are made and cancelled inside triggers."""
     chain = scheduling(once(0.2, 1), on_trigger=(*ASKS, repeated(0.2, 0.2, 2, handler=THIRD)))
     cases = [("one makes others", alone(chain, tell(1), after(0.3)))]
+    single = scheduling(once(0.2, 1), on_trigger=(*ASKS, once(0.3, handler=THIRD)))
+    cases.append(("each makes one", alone(single, tell(1), after(0.9))))
     other = scheduling(once(0.5, 1, SECOND), once(0.2, 1), on_trigger=(made(s.CANCEL), made(s.IS_CANCELLED)))
     cases.append(("one cancels another", alone(other, tell(1), after(0.6))))
     return _about("in triggers", "01 31 33", *cases)

@@ -202,8 +202,7 @@ class tells_rounds_left_of_repeated_triggers(Base):
     triggers_class = type("Left", (tells_rounds_left,), {"timer_class": _of_repeated(tells_rounds_left.timer_class)})
 
 
-@variant_of(*TRIGGERED, readings={"callback-exception": "ends"})
-class ends_objects_whose_handler_raises(Base):
+class EndsObjectsThatRaise(Base):
     """A repeated timer whose handler raises triggers no more."""
 
     def _trigger(self, member: Member, triggers: Triggers, timer: Timer) -> None:
@@ -222,13 +221,17 @@ class ends_objects_whose_handler_raises(Base):
             self._execute_callback(member, lambda: triggers.trigger.run(enter))
 
 
+@variant_of(*TRIGGERED, readings={"callback-exception": "ends"})
+class ends_objects_whose_handler_raises(EndsObjectsThatRaise):
+    """A repeated timer whose handler raises triggers no more."""
+
+
 @variant_of(*TRIGGERED, readings={"callback-exception": "observed"})
-class ends_objects_whose_handler_raises_unasked(ends_objects_whose_handler_raises):
+class ends_objects_whose_handler_raises_unasked(EndsObjectsThatRaise):
     """The same, without a declaration."""
 
 
-@variant_of(*TIMED, readings={"callback-exception": "ends"})
-class ends_timers_whose_callback_raises(Base):
+class EndsTimersThatRaise(Base):
     """A periodic timer whose callback raises calls back no more."""
 
     def _call_back(self, member: Member, timer: Timer) -> None:
@@ -244,3 +247,8 @@ class ends_timers_whose_callback_raises(Base):
 
         with suppress(Exception):
             self._execute_callback(member, lambda: timers.trigger.run(enter))
+
+
+@variant_of(*TIMED, readings={"callback-exception": "ends"})
+class ends_timers_whose_callback_raises(EndsTimersThatRaise):
+    """A periodic timer whose callback raises calls back no more."""
