@@ -14,6 +14,7 @@ from ucm_cts.reference_models.model.callback_history import Callback, CallbackHi
 from ucm_cts.reference_models.model.changing import Changing
 from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
+from ucm_cts.reference_models.model.hindrance import is_forgiving
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.log_contents import contents_read
@@ -122,9 +123,15 @@ class _TraceReader:
 
     def suspend(self) -> None:
         """Apply to the model what properties concluded."""
+        self.look_elsewhere()
         for member in self.verdicts.suspended:
             member.suspended = True
         self.verdicts.suspended.clear()
+
+    def look_elsewhere(self) -> None:
+        """Something is about to change: what the operation in progress found in other containers is asked now."""
+        if self.ongoing is not None:
+            is_forgiving(self.runtime, self.ongoing)
 
     def thread(self, number: int) -> _Thread:
         """The thread of that number."""
@@ -181,6 +188,7 @@ class _TraceReader:
 
     def end_connecting(self, step: s.Step, begin: t.Call, event: t.Return | t.Raise) -> None:
         if type(step) in _CONNECTOR_CALLS:
+            self.look_elsewhere()
             link = self.interactions.linked(step, begin, event)  # type: ignore[arg-type]
             self.runtime.changed()
             self.check("linked", link, step, event)
@@ -281,7 +289,7 @@ class _TraceReader:
             self.evaluate(self.table.called[call.by if call is not None else "framework"], self.ongoing, event, call)
         member = self.runtime.bodies.get(event.body)
         if member is not None and member.operational:
-            member.served = True
+            member.serve()
 
     def exit(self, event: t.Exit) -> None:
         thread = self.threads.get(event.thread) or self.thread(event.thread)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rich.console import Console
 
-from ucm_cts.harness.bench import endpoints, judging, models
+from ucm_cts.harness.bench import endpoints, growth, judging, models
 
 EVENTS = 1_000_000
 
@@ -22,6 +22,8 @@ def main() -> None:
     with console.status("judging the suite's own scenarios ..."):
         own = [judging.of_the_suite(profile) for profile in ("container", "core")]
     console.print(judging.table([life, *own]))
+    with console.status("judging scenarios with many parts ..."):
+        console.print(growth.table())
     with console.status("going through the endpoints ..."):
         for table in endpoints.tables():
             console.print(table)

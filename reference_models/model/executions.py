@@ -139,6 +139,7 @@ class Executions:
     def __init__(self, runtime: Runtime) -> None:
         self._runtime = runtime
         self._inside: dict[tuple[str, int], list[Execution]] = {}
+        self._on: dict[int, list[Execution]] = {}
         self._runs: dict[tuple[str, int], list[Execution]] = {}
         self.past = defaultdict[tuple[str, int], list[Execution]](list)
         self._opened: set[str] = set()
@@ -186,17 +187,24 @@ class Executions:
             runs = self._runs.setdefault(enter.body, [])
             execution.earlier = runs.copy()
             runs.append(execution)
-        callers = {id(caller) for caller in call.callers()} if call is not None else set()
-        execution.met = [other for other in inside if id(other) not in callers and other.enter.thread != enter.thread]
+        others = [other for other in inside if other.enter.thread != enter.thread] if inside else []
+        if others:
+            callers = {id(caller) for caller in call.callers()} if call is not None else set()
+            execution.met = [other for other in others if id(other) not in callers]
         inside.append(execution)
+        self._on.setdefault(enter.thread, []).append(execution)
         if call in self.pending:
             self.pending.remove(call)
         return execution
 
+    def is_alone(self, execution: Execution) -> bool:
+        """Is nothing else being executed in its body?"""
+        return len(self._inside[execution.enter.body]) == 1
+
     def innermost(self, thread: int) -> Execution | None:
         """The execution in progress on ``thread``."""
-        own = [e for inside in self._inside.values() for e in inside if e.enter.thread == thread]
-        return max(own, key=lambda e: e.enter.n, default=None)
+        own = self._on.get(thread)
+        return own[-1] if own else None
 
     def end(self, exit_: Exit) -> Execution | None:
         """A body is left."""
@@ -204,6 +212,11 @@ class Executions:
         for execution in reversed(inside):
             if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
                 inside.remove(execution)
+                on = self._on[exit_.thread]
+                if on[-1] is execution:
+                    on.pop()
+                else:
+                    on.remove(execution)
                 execution.over = True
                 execution.left, execution.end, execution.failed = exit_.t, exit_.n, exit_.failed
                 self.past[exit_.body].append(execution)

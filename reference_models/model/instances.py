@@ -133,11 +133,10 @@ class Member(Changing):
         self.connections = kept
         return forgotten
 
-    def leave(self) -> None:
-        """It has been removed."""
-        if not self.gone:
-            self.gone = True
-            self.container.dismiss(self)
+    def serve(self) -> None:
+        """Its business method is called while it is operational."""
+        self.served = True
+        self.container.served[self] = None
 
     def mark_doubtful(self) -> None:
         """It is open whether it still is a member."""
@@ -226,6 +225,7 @@ class Container(Changing):
     ``started``: None where the text leaves the outcome of a failed start or stop open.
     ``doubtful``: the text leaves the outcome of its removal open.
     ``members``: all it ever had; ``present``: those that have not been removed; ``startup_order``: those that are started, in the order in which they were.
+    ``served``: those of ``present`` that have served calls.
     ``of_doubt``: one of its members is doubtful.
     ``failed``: the operation that left open what became of it: the step, and the events with which it began and ended.
     """
@@ -236,6 +236,7 @@ class Container(Changing):
     doubtful: bool = False
     members: list[Member] = []
     startup_order: dict[Member, None] = {}
+    served: dict[Member, None] = {}
     failed_adds: int = 0
     of_doubt: bool = False
     failed: tuple[int, int, int] | None = None
@@ -262,14 +263,18 @@ class Container(Changing):
     def dismiss(self, member: Member) -> None:
         """A member has been removed."""
         self.present.remove(member)
+        self.served.pop(member, None)
         self._live = None
 
     def replace(self, members: list[Member]) -> None:
         """It has these members instead of others."""
         self.members, self.present, self._live = members, Membership(), None
+        self.served = {}
         for member in members:
             if not member.gone:
                 self.present.add(member)
+                if member.served:
+                    self.served[member] = None
 
     def suspend(self) -> None:
         """The outcome was left open: be silent about this container until a start or stop succeeds."""

@@ -110,7 +110,8 @@ class OperationInProgress(Changing):
     the row is about one that does not exist).
     ``judged``: False where the model cannot predict.
     ``is_after_removal``: its container, or the runtime, has been removed: the text says nothing about it.
-    ``forgiving``: it may end in UCM_ERROR for a reason that the rows do not show.
+    ``forgiving``: it may end in UCM_ERROR for a reason that the rows do not show; None while nobody has looked at other containers
+    for one (``is_forgiving``).
     ``lost``: the state that it leaves is not known.
     ``callbacks``: the entries meanwhile, with their ``hooks``, and the same ``by_body``.
     ``inside``: those of ``callbacks`` that have not been left.
@@ -127,7 +128,7 @@ class OperationInProgress(Changing):
     roles: list[tuple[Member | None, Row]] = []
     judged: bool = True
     is_after_removal: bool = False
-    forgiving: bool = False
+    forgiving: bool | None = False
     lost: bool = False
     callbacks: list[Enter] = []
     hooks: set[Hook] = set()

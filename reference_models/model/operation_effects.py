@@ -7,6 +7,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import MaybeReference, Raise, Reference, Return
+from ucm_cts.reference_models.model.hindrance import is_forgiving
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime, raises
 from ucm_cts.reference_models.model.start_effects import forget_start, take_over_start, take_over_stop
@@ -16,6 +17,8 @@ _PHASES = frozenset(("on_startup", "on_shutdown"))
 
 def apply(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
     """Bring ``runtime`` up to date with the operation that just ended."""
+    if type(end) is Raise:
+        is_forgiving(runtime, ongoing)
     if not ongoing.hooks.isdisjoint(_PHASES):
         _linger(runtime, ongoing, end)
     _TAKEN_OVER[ongoing.operation](runtime, ongoing, ongoing.step, end)
@@ -75,7 +78,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
     twins = list(ongoing.container.present.with_id(value))
     for twin in twins:
         if twin.leaving:  # its id is free, so the removal that failed did remove it
-            twin.leave()
+            runtime.leave(twin)
             for connection in twin.connections:
                 connection.live = False
     twins = [m for m in twins if not m.gone]
@@ -234,7 +237,7 @@ def _destroyed(runtime: Runtime, ongoing: OperationInProgress, step: s.Destroy, 
         for member in container.members:
             member.operational = False
             if isinstance(end, Return):
-                member.leave()
+                runtime.leave(member)
 
 
 def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:

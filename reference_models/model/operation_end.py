@@ -6,6 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Return
 from ucm_cts.reference_models.model import operation as op
 from ucm_cts.reference_models.model.expected_callbacks import LIFE_CYCLE_HOOKS, ExpectedCallbacks, Listener, listener
+from ucm_cts.reference_models.model.hindrance import is_forgiving
 from ucm_cts.reference_models.model.row_selection import listener_of
 from ucm_cts.reference_models.model.runtime import Member, Runtime, lane
 
@@ -21,7 +22,7 @@ def conclude(runtime: Runtime, ongoing: op.OperationInProgress, end: op.Result, 
     if answer != "return" and answer not in op.DECLARED_ERRORS[ongoing.operation]:
         ongoing.judged, ongoing.lost = False, True
     elif ongoing.judged:
-        _compare_answer(ongoing, outcome, expected)
+        _compare_answer(runtime, ongoing, outcome, expected)
     if ongoing.judged and answer == "return" and ongoing.operation == "add_component":
         _compare_body(runtime, ongoing, outcome, ongoing.step.component)  # type: ignore[union-attr]
     if ongoing.callbacks or len(runtime.containers) > 1:
@@ -33,9 +34,11 @@ def conclude(runtime: Runtime, ongoing: op.OperationInProgress, end: op.Result, 
             _compare_callbacks(runtime, ongoing, outcome, expected)
 
 
-def _compare_answer(ongoing: op.OperationInProgress, outcome: op.OperationEnd, expected: ExpectedCallbacks) -> None:
+def _compare_answer(
+    runtime: Runtime, ongoing: op.OperationInProgress, outcome: op.OperationEnd, expected: ExpectedCallbacks
+) -> None:
     answer = outcome.answer
-    if ongoing.forgiving and answer == "UCM_ERROR":
+    if answer == "UCM_ERROR" and is_forgiving(runtime, ongoing):
         ongoing.judged, ongoing.lost = False, True
         return
     outcome.permitting = permitting = []
@@ -77,8 +80,7 @@ def _find_intrusions(
             return
     removes = ongoing.operation in ("remove_component", "remove_container")
     if are_all_concerned:  # nobody else received anything: it matters only whether somebody is elsewhere
-        elsewhere = (m for c in runtime.containers.values() if c is not ongoing.container for m in c.live_members())
-        for member in elsewhere:
+        for member in runtime.elsewhere(ongoing.container):
             if id(member) not in concerned and not _is_unclear(member, removes):
                 _note_undisturbed(ongoing, outcome)
                 return

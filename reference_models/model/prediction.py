@@ -133,11 +133,12 @@ def _copied(runtime: ObservedRuntime) -> ObservedRuntime:
     other = copy(runtime)
     other.containers = {name: containers[id(c)] for name, c in runtime.containers.items()}
     other.members = {name: members[id(m)] for name, m in runtime.members.items()}
+    other.inhabited = {containers[id(c)]: None for c in runtime.inhabited}
     other.present, other.behind = {members[id(m)]: None for m in runtime.present}, {}
     other.bodies = {body: members[id(m)] for body, m in runtime.bodies.items()}
     other.connections = {name: connections[id(c)] for name, c in runtime.connections.items()}
     other.references = {name: (r, m and members[id(m)]) for name, (r, m) in runtime.references.items()}
-    other.remembered = runtime.remembered.copied(members, connections)
+    other.remembered = runtime.remembered.copied(containers, members, connections)
     other.discarded, other.ports = set(runtime.discarded), dict(runtime.ports)
     other.startups, other.starting = dict(runtime.startups), set(runtime.starting)
     return other

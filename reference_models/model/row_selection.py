@@ -23,7 +23,6 @@ from ucm_cts.reference_models.model.service_policies import has_several_clocks
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
 
-_CONFIGURING = frozenset(("add_component", "remove_component", "connect", "disconnect", "create_container"))
 _OF_THE_MANAGER = frozenset(("create_container", "remove_container", "destroy"))
 
 
@@ -64,26 +63,12 @@ class RowSelection:
         if ongoing.subject is not None and ongoing.subject.container is not container:
             ongoing.judged = False
         if len(runtime.containers) > 1 and not ongoing.forgiving:
-            ongoing.forgiving = self._is_hindered_elsewhere(runtime, ongoing)
+            ongoing.forgiving = None
         for member, _ in ongoing.roles:
             if member is not None and member.suspended:
                 ongoing.judged = False
                 break
         return ongoing
-
-    def _is_hindered_elsewhere(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> bool:
-        """If phases belong to the whole application: may the phase of another container be a reason to refuse?"""
-        if ongoing.operation in _CONFIGURING:
-            for other in runtime.containers.values():
-                if other.started is not False and other is not ongoing.container and not other.removed:
-                    return True
-        elif ongoing.operation == "start":
-            for other in runtime.containers.values():
-                if other is not ongoing.container and not other.removed:
-                    for member in other.live_members():
-                        if member.suspended or not member.connected:
-                            return True
-        return False
 
     def _role(
         self, ongoing: OperationInProgress, member: Member | None, state: State, condition: str, operation: str = ""

@@ -51,10 +51,11 @@ class Runtime:
 
     ``members``, ``connections``, ``references``: what variables hold now.
     ``present``: the instances in the order in which they were added, without those that have been removed without a trace.
+    ``inhabited``: the containers that have members.
     ``with_policies``: an instance had policies; ``knows_policies``: a component of the scenario has an execution
     policy; otherwise it is one of profile container, which knows none.
     ``shares_bodies``: two instances seemed to have the same body.
-    ``remembered``: the connections among ``all_connections``, by id and by what they lead to.
+    ``remembered``: the connections among ``all_connections``, by id, by what they lead to and by container.
     ``startups``: when the last on_startup of each body began (``n``), and on which thread.
     ``starting``: bodies whose on_startup has returned during the operation in progress.
     ``starting_up``: bodies inside on_startup because their container is being started, each with its thread.
@@ -70,6 +71,7 @@ class Runtime:
         self.containers: dict[str, Container] = {MANAGER: Container(MANAGER)}
         self.members: dict[str, Member] = {}
         self.present: dict[Member, None] = {}
+        self.inhabited: dict[Container, None] = {}
         self.with_policies = False
         self.knows_policies = False
         self.shares_bodies = False
@@ -104,6 +106,7 @@ class Runtime:
         """An instance has been added."""
         member.place = self._enrolled = self._enrolled + 1
         member.container.admit(member)
+        self.inhabited[member.container] = None
         self.members[member.name] = member
         self.present[member] = None
         self.with_policies = self.with_policies or bool(member.declaration.policies)
@@ -113,11 +116,19 @@ class Runtime:
 
     def let_go(self, member: Member) -> None:
         """An instance has been removed. Its connections matter no more, unless they are unclear."""
-        member.leave()
+        self.leave(member)
         if member in self.present and not any(c.live is not False or c.ambiguous for c in member.connections):
             del self.present[member]
             for connection in member.connections:
                 self.remembered.forget(connection)
+
+    def leave(self, member: Member) -> None:
+        """An instance has been removed."""
+        if not member.gone:
+            member.gone = True
+            member.container.dismiss(member)
+            if not member.container.present.members:
+                del self.inhabited[member.container]
 
     def provider_of(self, reference: MaybeReference) -> Member | None:
         """The instance that a recognised reference belongs to."""
@@ -173,6 +184,12 @@ class Runtime:
         """Keep one of many connections of ``member`` that are alike."""
         for connection in member.forget_repetitions():
             self.remembered.forget(connection)
+
+    def elsewhere(self, container: Container) -> Iterator[Member]:
+        """The members of other containers."""
+        for other in self.inhabited:
+            if other is not container:
+                yield from other.present.members
 
     def clients_of(self, providers: Collection[Member]) -> list[tuple[Member, list[Connection]]]:
         """Each other instance that has live connections to one of ``providers``, with these connections."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Return
+from ucm_cts.reference_models.model.hindrance import is_forgiving
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Container, Member, Runtime
 
@@ -27,7 +28,7 @@ def take_over_start(runtime: Runtime, ongoing: OperationInProgress, step: s.Star
     if not returned:
         failing = any(m.raises("on_startup") for m in container.live_members())
         half_way = any(not ongoing.received(m, "on_shutdown") for m in own)
-        unseen = ongoing.forgiving and all(m.doubtful for m in container.live_members())
+        unseen = is_forgiving(runtime, ongoing) and all(m.doubtful for m in container.live_members())
         taken_back = {m.container.name: m.container for m in _called(runtime, ongoing, "on_shutdown")}
         unclear = container.started is not False or failing or half_way or unseen
         if unclear and (container.started is not True or own or container.name in taken_back):

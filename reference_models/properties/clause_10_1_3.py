@@ -155,9 +155,12 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
 @property_at("began", *policies.CALL_EXCLUSIONS)
 def circle_entered(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
+    if execution.call is None:
+        return ()
+    if runtime.executions.is_alone(execution) and not runtime.interactions.calls:
+        return ()  # who waits for a call is inside; a message may come to a body that has pushed it and gone on
     body = execution.enter.body
-    callers = execution.call.callers() if execution.call is not None else ()
-    waiting = [c for c in callers if c.enter.body == body]
+    waiting = [c for c in execution.call.callers() if c.enter.body == body]
     member = runtime.bodies.get(body)
     if waiting and member is not None:
         return _returned_to(

@@ -11,6 +11,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, 
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import messages as msg
 from ucm_cts.reference_models.model.designation import designation, error_name
+from ucm_cts.reference_models.model.hindrance import is_forgiving
 from ucm_cts.reference_models.model.links import End, LinkState, interface_of
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -248,7 +249,7 @@ def message_connector(
 @property_at("ended", _STANDARD, at=("start",), feature="interactions")
 def joined_and_started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Components that are joined by a message connector can be started."""
-    if not isinstance(ongoing.end, Raise) or ongoing.forgiving:
+    if not isinstance(ongoing.end, Raise) or is_forgiving(runtime, ongoing):
         return ()
     members = ongoing.container.live_members()
     if any(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import chain
-
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Reference, Return
@@ -123,8 +121,7 @@ def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: Operation
         return bool(connection.live) and not is_replaced and client.container is container
 
     is_used = any(map(counts, runtime.remembered.with_id(end.value)))
-    # the newest ones first: mostly one of them stands
-    has_others = is_used or any(map(counts, chain(reversed(runtime.connections.values()), runtime.all_connections())))
+    has_others = is_used or any(map(counts, runtime.remembered.newest_in(container)))
     return _in_range(check, ongoing, end, "connection", is_used, has_others)
 
 

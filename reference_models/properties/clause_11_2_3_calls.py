@@ -224,7 +224,7 @@ def quiet_after_stop(check: Property, runtime: ObservedRuntime, ongoing: Operati
     """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
     if ongoing.container.started is not False:
         return ()
-    if any(m.served and not m.suspended for m in ongoing.container.live_members()):
+    if any(not member.suspended for member in ongoing.container.served):
         return check.kept()
     return ()
 

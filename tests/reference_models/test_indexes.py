@@ -44,7 +44,11 @@ def _check(model: Prediction) -> None:
         assert {*runtime.remembered.leading_to([member])} == {c for c in everything if c.leads_to({id(member)})}
         clients = [(m, [c for c in m.connections if c.live and c.provider is member]) for m in runtime.present]
         assert runtime.clients_of([member]) == [(m, used) for m, used in clients if used and m is not member]
+    assert {*runtime.inhabited} == {c for c in runtime.containers.values() if any(not m.gone for m in c.members)}
     for container in runtime.containers.values():
+        standing = {c for c in everything if c.live is not False and c.client.container is container}
+        assert {*runtime.remembered.newest_in(container)} == standing
+        assert {*container.served} == {member for member in container.members if member.served and not member.gone}
         live = [member for member in container.members if not member.gone]
         assert [*container.live_members()] == live
         for member in live:
@@ -62,6 +66,8 @@ def test_indexes_follow_the_model(seed: int) -> None:
     connected = 0
     for number in range(300):
         model.perform(_step(draw, number))
+        if number % 10 == 0 and model.runtime.present:
+            draw.choice([*model.runtime.present]).serve()
         _check(model)
         connected = max(connected, len([*model.runtime.all_connections()]))
         if number % 50 == 25:

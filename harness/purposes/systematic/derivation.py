@@ -9,6 +9,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.harness.purposes.systematic.machine import Machine, Move, Permitted
 from ucm_cts.harness.purposes.systematic.permission import Permission
 from ucm_cts.harness.purposes.systematic.settings import Input, Setting
+from ucm_cts.reference_models.model.hindrance import is_forgiving
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -70,7 +71,7 @@ class _Derivation:
         for way in now.ways(ongoing):
             if not self.permission.permits(now.runtime, ongoing, way):
                 continue
-            if ongoing.forgiving and way.answer == "UCM_ERROR":
+            if way.answer == "UCM_ERROR" and is_forgiving(now.runtime, ongoing):
                 return None  # perhaps for a reason that the table does not know: the monitor loses track
             if _changes_nothing(given.step, way):
                 reached.setdefault(state, (now, way))
@@ -94,7 +95,7 @@ class _Derivation:
         """The possible observations of the next operation, the ``usual`` one first."""
         ways = (usual, *self.permission.ways(runtime, ongoing))
         seen = dict.fromkeys(o for way in ways for o in self.permission.seen(runtime, ongoing, way))
-        return Permitted(tuple(seen), ongoing.forgiving)
+        return Permitted(tuple(seen), is_forgiving(runtime, ongoing))
 
 
 def _named(runtime: ObservedRuntime, given: Input) -> Input:
