@@ -95,7 +95,7 @@ class cancel_ends_the_timer_of_the_first_scheduler(TakesSeveralSchedulers):
 
             def cancel(number: int) -> None:
                 for triggers in known:
-                    Triggers.cancel_timer(triggers, number)  # type: ignore[arg-type]
+                    Triggers.cancel_timer(triggers, number)
 
             member.schedulers[-1].cancel_timer = cancel  # type: ignore[method-assign]
         return element
