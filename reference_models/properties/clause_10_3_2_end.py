@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterator, Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
@@ -13,18 +14,21 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import Timer, TimerPhase
-from ucm_cts.reference_models.model.timer_times import earliest, latest
+from ucm_cts.reference_models.model.timer_times import earliest, free_after, latest
 from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.clause_10_3_end import DueAnswer, answer_of, due_shown
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _NOTHING_ELSE, _NUMBER_TOLD, _APART = "R-10.3.2-22", "R-10.3.2-34", "R-10.3.2-37"
-_TELLS, _NUMBERS = "R-10.3.2-40", "R-10.3.2-33"
+_TELLS, _NUMBERS, _CANCELS = "R-10.3.2-40", "R-10.3.2-33", "R-10.3.2-38"
 
 _LONG_ENOUGH = 1_000_000_000
 """A component whose timers do not call back for so long is quiet, in nanoseconds."""
 
 _SEVERAL = 3
+
+_FIRST_ONES = 4
+"""So many callbacks of a timer are compared where its number was started twice."""
 
 
 @property_at("closed", _NOTHING_ELSE, _NUMBER_TOLD, _APART, feature="timers", timed=True)
@@ -129,35 +133,51 @@ def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A number is started while its timer waits: the new timer counts, the old one, both, or the call is refused; never none."""
     for phase in timer_phases(runtime):
         for old, new in _started_twice(runtime, phase):
-            both = [c for c in phase.callbacks if c.number == old.number and c.n > old.call.request.n]
-            at_new = [c for c in both if _is_at(runtime, new, c.t)]
-            at_old = [c for c in both if _is_at(runtime, old, c.t)]
-            refused = new.call.reply is not None and new.call.reply.failed
-            value = (
-                "refuse"
-                if refused
-                else "both"
-                if at_new and at_old
-                else "replace"
-                if at_new
-                else "keep"
-                if at_old
-                else ""
-            )
+            later = [c for c in phase.callbacks if c.number == old.number and c.n > new.call.request.n]
+            value = _reading_of_use(runtime, old, new, [c.t for c in later])
             if value and (yield from takes(runtime, "number-in-use", value)):
                 continue
             declared = runtime.ics.reading("number-in-use")
             yield check.fail(
                 value or "lost",
                 expected=f"timer {old.number} of '{phase.member.lane}', which is started again while it waits, "
-                + (f"behaves as declared: {declared}" if value else "calls back"),
+                + (
+                    f"behaves as declared: {declared}"
+                    if value
+                    else "calls back whenever one of the starts, or each, is due"
+                ),
                 observed=f"it did as under '{value}'" if value else "it did not, for either start",
-                at=(*at_of(old, *both), *(() if value else noticed(runtime, latest(runtime, new, 0)))),
+                at=(*at_of(old, *later), *(() if value else noticed(runtime, latest(runtime, new, 0)))),
             )
 
 
+def _reading_of_use(runtime: ObservedRuntime, old: Timer, new: Timer, came: Sequence[int]) -> str:
+    """The reading of ``number-in-use`` that explains when callbacks ``came``; empty if there is none."""
+    served = []
+    for timer in (old, new):
+        times = _times_after(runtime, timer, new)
+        hit = sum(any(due <= moment <= last for moment in came) for due, last in times)
+        if 0 < hit < len(times):
+            return ""
+        served.append(hit > 0)
+    if new.call.reply is not None and new.call.reply.failed:
+        return "refuse" if served[0] else ""
+    return {(True, True): "both", (False, True): "replace", (True, False): "keep"}.get((served[0], served[1]), "")
+
+
+def _times_after(runtime: ObservedRuntime, timer: Timer, new: Timer) -> list[tuple[int, int]]:
+    """Between which moments the first callbacks of ``timer`` are due after ``new`` was started, and before the phase ends."""
+    found = []
+    for number in range(1 if timer.rate is None else _FIRST_ONES):
+        due, last = earliest(runtime, timer, number), latest(runtime, timer, number)
+        is_after = due is not None and new.call.reply is not None and due > new.call.reply.t
+        if due is not None and last is not None and is_after and last < timer.phase.of.ended_at:
+            found.append((due, last))
+    return found
+
+
 def _started_twice(runtime: ObservedRuntime, phase: TimerPhase) -> Iterator[tuple[Timer, Timer]]:
-    """Two sporadic timers, the only ones of their number, of which the second was started while the first one waited, and that both should
+    """Two timers, the only ones of their number, of which the second was started while the first one waited, and that both should
     have called back, at moments that can be told apart, with nothing to keep them out.
     """
     by_number: dict[int, list[Timer]] = {}
@@ -170,14 +190,32 @@ def _started_twice(runtime: ObservedRuntime, phase: TimerPhase) -> Iterator[tupl
         if len(timers) != 2 or not timers[0].is_contested:
             continue
         old, new = timers
-        dues = [latest(runtime, timer, 0) for timer in timers]
-        plain = all(t.rate is None and t.has_usual_times and not t.cancels and not t.is_in_startup for t in timers)
-        if not plain or dues[0] is None or dues[1] is None or max(dues[0], dues[1]) > phase.of.ended_at:
-            continue
-        if abs(dues[0] - dues[1]) > 2 * late:
+        plain = all(t.has_usual_times and not t.cancels and not t.is_in_startup for t in timers)
+        times = [_times_after(runtime, timer, new) for timer in timers] if plain else [[], []]
+        are_apart = all(a[0] > b[1] + late or b[0] > a[1] + late for a, b in itertools.product(*times))
+        if all(times) and are_apart:
             yield old, new
 
 
-def _is_at(runtime: ObservedRuntime, timer: Timer, moment: int) -> bool:
-    due, last = earliest(runtime, timer, 0), latest(runtime, timer, 0)
-    return due is not None and last is not None and due <= moment <= last
+@property_at("closed", _CANCELS, feature="timers", timed=True)
+def cancelled_numbers_are_silent(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """A number that was started while its timer waited calls back no more once it is cancelled, where it has one timer as declared."""
+    if runtime.ics.reading("number-in-use") not in ("replace", "keep", "refuse"):
+        return
+    for phase in timer_phases(runtime):
+        for timer in phase.timers:
+            cancel = timer.cancelled
+            last = max((t.call.over for t in phase.timers if t.number == timer.number), default=0)
+            if not timer.is_contested or cancel is None or cancel.reply is None or cancel.request.n < last:
+                continue
+            over = cancel.reply
+            later = [c for c in phase.callbacks if c.number == timer.number and c.n > over.n]
+            free = [free_after(runtime, timer, over.t, c.t) for c in later]
+            wrong = [c for c, at in zip(later, free, strict=True) if at is not None and c.t > at + lateness(runtime)]
+            if wrong:
+                yield check.fail(
+                    "calls back",
+                    expected=f"number {timer.number} of '{phase.member.lane}', which was started twice, calls back no more once it is cancelled",
+                    observed="it called back after cancel_timer had returned",
+                    at=(timer.call.request.n, over.n, *(c.n for c in wrong)),
+                )

@@ -66,6 +66,10 @@ class Rude : public ucm_cts::Adapter {
     void disconnect(const Handle&, ucm_cts::Id) override {}
     void start(const Handle&) override {
         for (const auto& one : all_) {
+            if (one.name == "timed") {
+                serve_timers(one);
+                continue;
+            }
             for (const auto& policy : one.policies) {
                 const auto execution = one.create()->get_policy_element(policy.definition, "self-execution_api");
                 if (execution) execution->run();
@@ -89,6 +93,39 @@ class Rude : public ucm_cts::Adapter {
     __attribute__((noinline)) static void crash_here() { *static_cast<volatile int*>(nullptr) = 1; }
 
   private:
+    struct Timer : ucm_cts::ObjectTimer {
+        std::int64_t rounds() override { return 3; }
+        std::string id() override { return "t"; }
+        void cancel() override { throw ucm_cts::UcmError("too late"); }
+        bool is_cancelled() override { return false; }
+    };
+
+    // triggers inside the calls; the second method returns no timer
+    struct Scheduler : ucm_cts::TimerScheduler {
+        typedef std::shared_ptr<ucm_cts::ObjectTimer> Made;
+        typedef std::shared_ptr<ucm_cts::TimerHandler> Handler;
+        Made scheduler_trigger(const Handler& handler, const ucm_cts::TimeValue& delay) override {
+            handler->on_trigger(std::make_shared<Timer>(), delay, 0);
+            return std::make_shared<Timer>();
+        }
+        Made schedule_repeated_trigger(const Handler& handler, const ucm_cts::TimeValue&,
+                                       const ucm_cts::TimeValue& interval, std::int64_t max_rounds) override {
+            handler->on_trigger(std::make_shared<Timer>(), interval, max_rounds);
+            return nullptr;
+        }
+    };
+
+    // has a body use object timers, and calls its callback of index timers
+    static void serve_timers(const ucm_cts::Implementation& implementation) {
+        const auto body = implementation.create();
+        std::vector<ucm_cts::PortConnection> given;
+        for (const auto& policy : implementation.policies) {
+            if (policy.definition == "ott_timer") given.push_back({policy.element, {std::make_shared<Scheduler>()}});
+        }
+        body->on_startup(given);
+        body->get_policy_port("itt_timer", "timer_callback")->call("on_timeout", {{5, "RELATIVE_TIME"}, 7});
+    }
+
     struct Flooding : ucm_cts::ContainerInterface {
         std::vector<ucm_cts::Id> get_components() override { return std::vector<ucm_cts::Id>(10001); }
     };

@@ -117,6 +117,8 @@ def _several() -> TestPurpose:
     cases.append(("long times", alone(timed(*long), tell(1), after(2))))
     used = (tell(1), s.Pause(500), tell(2), after(2.6))
     cases.append(("a number in use", alone(timed(sporadic(5, 3, 1), sporadic(6, 2, 1), sporadic(5, 1, 2)), *used)))
+    twice = timed(periodic(5, 1, 1, 1), sporadic(6, 2, 1), periodic(5, 1, 1, 2))
+    cases.append(("a periodic number in use", alone(twice, *used)))
     return purposes_about("several", "21 26 33 34 36", *cases)
 
 
@@ -159,6 +161,11 @@ def _cancel() -> TestPurpose:
     cases.append(
         ("started anew", alone(anew, tell(1), after(1), tell(2), tell(3), after(3), tell(2), tell(5), after(2)))
     )
+    twice = timed(
+        periodic(5, 1, 1, 1), sporadic(6, 2, 1), periodic(5, 1, 1, 2), sporadic(6, 2, 2), cancel(5, 3), cancel(6, 3)
+    )
+    ended = (tell(1), s.Pause(500), tell(2), s.Pause(800), tell(3), after(1.6))
+    cases.append(("of numbers that were started twice", alone(twice, *ended)))
     held = timed(sporadic(5, 1, 1), s.HoldAtGate(INSIDE), cancel(5, 1), policies=(PASSIVE, TIMERS))
     late = while_held(1500, 0.2)
     cases.append(("of one that waits for its component", alone(held, *late)))
@@ -216,6 +223,12 @@ def _phases() -> TestPurpose:
     cases.append(("restart after a cancel", alone(cancelled, *again)))
     successor = (s.AddComponent("timed", bind="next"), s.Start(), after(1.2))
     cases.append(("another instance follows", alone(body, *pending, s.RemoveComponent("timed"), *successor)))
+    waits = timed(sporadic(5, 1, 1), s.HoldAtGate(INSIDE), policies=(PASSIVE, TIMERS))
+    stopped = (
+        *(s.Invoke("tell", 1, thread="holder"), s.ReachGate(INSIDE), s.Pause(1300), s.Stop(thread="stopper")),
+        *(s.Settle("stopper"), s.OpenGate(INSIDE), s.Join("holder"), s.Join("stopper"), after(0)),
+    )
+    cases.append(("stop while one waits for its component", alone(waits, *stopped)))
     running = (tell(1), after(1.6), s.Stop(), after(1.2), s.Start(), tell(1), after(1))
     cases.append(("stop of one that repeats", alone(body, *running)))
     return purposes_about("phases", "30 42", *cases)
@@ -279,7 +292,7 @@ def _raising() -> TestPurpose:
     """Callbacks raise: their timers, others of their component, and one that is started afterwards; those of another component."""
     orders = (periodic(5, 1, 1, 1), sporadic(6, 2, 1), sporadic(7, 1, 2))
     raising = timed(*orders, on_timeout=(s.RaiseError(),))
-    other = timed(periodic(5, 1, 1, 1))
+    other = timed(periodic(8, 1, 1, 1))
     steps = (tell(1, "raising"), tell(1, "other"), after(3), tell(2, "raising"), after(1))
     case = ("beside others", together({"raising": raising, "other": other}, *steps))
     return purposes_about("callbacks raise", "21 26 30 36", case)

@@ -27,11 +27,22 @@ from ucm_cts.adapters.contract.programming_model import (
     FragmentObject,
     Implementation,
     NotFound,
+    ObjectTimer,
     PortConnection,
     PortElementObject,
+    TimerHandler,
+    TimerScheduler,
     UcmError,
 )
-from ucm_cts.adapters.contract.scenario import SELF_EXECUTION_API, Declaration, Scenario, Step
+from ucm_cts.adapters.contract.scenario import (
+    INDEX_TIMERS,
+    OBJECT_TIMERS,
+    SELF_EXECUTION_API,
+    TIMER_CALLBACK,
+    Declaration,
+    Scenario,
+    Step,
+)
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
@@ -69,6 +80,44 @@ class Flooding(ContainerInterface):
         return range(10_001)
 
 
+class Timer(ObjectTimer):
+    def rounds(self) -> int:
+        return 3
+
+    def id(self) -> str:
+        return "t"
+
+    def cancel(self) -> None:
+        raise UcmError("too late")
+
+    def is_cancelled(self) -> bool:
+        return False
+
+
+class Scheduler(TimerScheduler):
+    """Triggers inside the calls. The second method returns no timer."""
+
+    def scheduler_trigger(self, handler: TimerHandler, delay: Sequence[int]) -> ObjectTimer:
+        handler.on_trigger(Timer(), delay, 0)
+        return Timer()
+
+    def schedule_repeated_trigger(
+        self, handler: TimerHandler, start_delay: Sequence[int], interval: Sequence[int], max_rounds: int
+    ) -> ObjectTimer | None:
+        handler.on_trigger(Timer(), interval, max_rounds)
+        return None
+
+
+def serve_timers(implementation: Implementation) -> None:
+    """Has a body use object timers and then calls its callback of index timers."""
+    body = implementation.create()
+    elements = [p.element or "" for p in implementation.policies if p.definition == OBJECT_TIMERS]
+    body.on_startup([PortConnection(element, (Scheduler(),)) for element in elements])
+    callback = body.get_policy_port(INDEX_TIMERS, TIMER_CALLBACK)
+    assert callback is not None
+    callback.call("on_timeout", [[5, "RELATIVE_TIME"], 7])
+
+
 class RudeAdapter(Adapter):
     """Misbehaves as the name of the component to add says, like the adapters of that name in C++ and Java."""
 
@@ -104,6 +153,9 @@ class RudeAdapter(Adapter):
 
     def start(self, container: Any) -> None:
         for one in self.implementations:
+            if one.name == "timed":
+                serve_timers(one)
+                continue
             body = one.create()
             for policy in one.policies:
                 element = body.get_policy_element(policy.definition, SELF_EXECUTION_API)

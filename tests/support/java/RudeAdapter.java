@@ -6,9 +6,12 @@ import org.ucmcts.Body;
 import org.ucmcts.Fragment;
 import org.ucmcts.Host;
 import org.ucmcts.Implementation;
+import org.ucmcts.ObjectTimer;
 import org.ucmcts.PortConnection;
 import org.ucmcts.PortElement;
 import org.ucmcts.Product;
+import org.ucmcts.TimerHandler;
+import org.ucmcts.TimerScheduler;
 import org.ucmcts.UcmException.BadParameter;
 import org.ucmcts.UcmException.NotFound;
 import org.ucmcts.UcmException.UcmError;
@@ -75,7 +78,8 @@ public final class RudeAdapter extends Adapter<String> {
 
     @Override
     public void start(String container) {
-        all.forEach(one -> one.policies().forEach(policy -> {
+        all.stream().filter(one -> one.name().equals("timed")).forEach(RudeAdapter::serveTimers);
+        all.stream().filter(one -> !one.name().equals("timed")).forEach(one -> one.policies().forEach(policy -> {
             Runnable run = one.create().get().getPolicyElement(policy.definition(), "self-execution_api");
             if (run != null) {
                 run.run();
@@ -86,6 +90,58 @@ public final class RudeAdapter extends Adapter<String> {
             ((Fragment) body).setContainerInterface(() -> Collections.nCopies(TOO_MANY, 1));
             body.onStartup(Collections.nCopies(TOO_MANY, new PortConnection("out", List.of())));
         });
+    }
+
+    /** Has a body use object timers, and calls its callback of index timers. */
+    private static void serveTimers(Implementation implementation) {
+        Body body = implementation.create().get();
+        body.onStartup(implementation.policies().stream()
+                .filter(policy -> policy.definition().equals("ott_timer"))
+                .map(policy -> new PortConnection(policy.element(), List.of(new Scheduler())))
+                .toList());
+        PortElement callback = body.getPolicyPort("itt_timer", "timer_callback");
+        callback.call("on_timeout", List.of(List.of(5, "RELATIVE_TIME"), 7));
+    }
+
+    /** Triggers inside the calls. The second method returns no timer. */
+    private static final class Scheduler implements TimerScheduler {
+        @Override
+        public ObjectTimer schedulerTrigger(TimerHandler handler, List<? extends Number> delay) {
+            handler.onTrigger(new Timer(), delay, 0);
+            return new Timer();
+        }
+
+        @Override
+        public ObjectTimer scheduleRepeatedTrigger(
+                TimerHandler handler,
+                List<? extends Number> startDelay,
+                List<? extends Number> interval,
+                long maxRounds) {
+            handler.onTrigger(new Timer(), interval, maxRounds);
+            return null;
+        }
+    }
+
+    private static final class Timer implements ObjectTimer {
+        @Override
+        public long rounds() {
+            return 3;
+        }
+
+        @Override
+        public String id() {
+            return "t";
+        }
+
+        @Override
+        public void cancel() {
+            throw new UcmError("too late");
+        }
+
+        @Override
+        public boolean isCancelled() {
+            return false;
+        }
     }
 
     @Override

@@ -311,57 +311,6 @@ class begins_one_rate_later(Timers):
         self._start(Timer(number, self._due(delay) + seconds, seconds, list(delay)))
 
 
-@variant_of(*TIMED, readings={"number-in-use": "keep"})
-class keeps_the_old_timer(Timers):
-    """Starting a number whose timer waits has no effect."""
-
-    def _start(self, timer: Timer) -> None:
-        if timer.number not in self._waiting:
-            super()._start(timer)
-
-
-@variant_of(*TIMED, readings={"number-in-use": "refuse"})
-class refuses_numbers_in_use(Timers):
-    """Starting a number whose timer waits raises."""
-
-    def _start(self, timer: Timer) -> None:
-        if timer.number in self._waiting:
-            raise UcmError("the number is in use")
-        super()._start(timer)
-
-
-@variant_of(*TIMED, readings={"number-in-use": "both"})
-class runs_both_timers(Timers):
-    """A number may have several timers."""
-
-    def __init__(self, *arguments: Any) -> None:
-        super().__init__(*arguments)
-        self._several: dict[int, list[Timer]] = {}
-
-    def _start(self, timer: Timer) -> None:
-        with self._changed:
-            if timer.number in self._waiting:
-                self._several.setdefault(timer.number, []).append(timer)
-                known = [self._waiting[timer.number], *self._several[timer.number]]
-                first, *rest = sorted(known, key=lambda one: one.due)
-                self._waiting[timer.number], self._several[timer.number] = first, rest
-                self._changed.notify()
-                return
-        super()._start(timer)
-
-    def take(self, timer: Timer) -> bool:
-        taken = super().take(timer)
-        with self._changed:
-            rest = self._several.get(timer.number)
-            if rest and timer.number not in self._waiting and timer.number not in self._cancelled:
-                self._waiting[timer.number] = rest.pop(0)
-        return taken
-
-    def cancel_timer(self, number: int) -> None:
-        super().cancel_timer(number)
-        self._several.pop(number, None)
-
-
 @variant_of(*TIMED, readings={"callback-time": "due"})
 class tells_when_it_was_due(Base):
     """A callback tells the date when its timer was due."""

@@ -1,0 +1,105 @@
+"""Wrong frameworks, clause 10.3.2: index timers that fail in one situation: numbers that are started twice, callbacks that raise, a stop."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
+from ucm_cts.adapters.mutants.python.variants.triggered_apart import EndsTimersThatRaise
+from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.timers import Timer, Timers
+
+
+@breaks("R-10.3.2-33", clauses=TIMED, also=(*MISSING_CALLBACKS, "R-10.3.2-32"))
+class loses_a_periodic_number_in_use(Timers):
+    """Starting a number whose periodic timer waits ends that timer, and starts none."""
+
+    def _start(self, timer: Timer) -> None:
+        before = self._waiting.get(timer.number)
+        if before is not None and before.rate is not None:
+            del self._waiting[timer.number]
+        else:
+            super()._start(timer)
+
+
+class _KeepsTheOld(Timers):
+    """A number that is started while its timer waits has a second timer, which ``_is_kept`` may leave there when it is cancelled."""
+
+    def _start(self, timer: Timer) -> None:
+        before = self._waiting.get(timer.number)
+        super()._start(timer)
+        if before is not None:
+            self.__dict__.setdefault("twice", set()).add(timer.number)
+
+    def cancel_timer(self, number: int) -> None:
+        if number in self.__dict__.get("twice", ()):
+            self._cancelled.add(number)
+        else:
+            super().cancel_timer(number)
+
+
+@breaks("R-10.3.2-38", clauses=TIMED, also=("R-10.3.2-40", "R-10.3.2-29"))
+class does_not_cancel_numbers_started_twice(_KeepsTheOld):
+    """A number that was started while its timer waited cannot be cancelled."""
+
+
+class _Raising(Base):
+    """``_take_exception`` is told of a callback that raised."""
+
+    def _take_exception(self, timers: Timers) -> None:
+        raise NotImplementedError
+
+    def _call_back(self, member: Member, timer: Timer) -> None:
+        timers = self._timers_of(member)
+
+        def enter() -> None:
+            if timers.take(timer):
+                try:
+                    self._callback_of(member).call(s.ON_TIMEOUT, [self._told(member, timer), timer.number])
+                except Exception:  # noqa: BLE001 - a callback may raise any
+                    self._take_exception(timers)
+
+        with suppress(Exception):
+            self._execute_callback(member, lambda: timers.trigger.run(enter))
+
+
+@breaks("R-10.3.2-36", clauses=TIMED, also=MISSING_CALLBACKS)
+class ends_all_timers_when_a_callback_raises(_Raising):
+    """When a callback raises, all timers of its component end."""
+
+    def _take_exception(self, timers: Timers) -> None:
+        timers._waiting.clear()
+
+
+@breaks("R-10.3.2-36", clauses=TIMED, also=MISSING_CALLBACKS)
+class starts_no_timers_after_a_callback_raised(_Raising):
+    """Timers that are started after a callback raised never call back."""
+
+    def _take_exception(self, timers: Timers) -> None:
+        timers._start = lambda timer: None  # type: ignore[method-assign]
+
+
+@breaks("R-10.3.2-30", clauses=TIMED, readings={"callback-exception": "continues"}, also=MISSING_CALLBACKS)
+class ends_what_raises_undeclared(EndsTimersThatRaise):
+    """A periodic timer whose callback raises ends, although it is declared to go on."""
+
+
+@breaks("R-10.3.2-30", clauses=TIMED, readings={"callback-exception": "ends"})
+class repeats_what_raises_undeclared(Base):
+    """A periodic timer whose callback raises goes on, although it is declared to end."""
+
+
+@breaks("R-10.3.2-42", clauses=TIMED, also=("R-11.2.3-15", "R-11.2.3-17", "R-11.2.3-27", "R-11.2.3-06"))
+class serves_what_waited_when_it_stopped(Base):
+    """A callback that waits for its component when stop is called enters when that is free, also after stop returned."""
+
+    def _call_back(self, member: Member, timer: Timer) -> None:
+        timers = self._timers_of(member)
+
+        def enter() -> None:
+            if timers.take(timer):
+                self._callback_of(member).call(s.ON_TIMEOUT, [self._told(member, timer), timer.number])
+
+        with suppress(Exception):
+            self._execute_callback(member, enter)
