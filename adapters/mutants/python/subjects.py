@@ -55,6 +55,7 @@ MODULES = {
         "messages",
         "paced",
         "timed",
+        "timed_numbers",
         "triggered",
         "triggered_apart",
         "phases",
