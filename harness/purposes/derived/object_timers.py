@@ -129,10 +129,10 @@ def _several() -> TestPurpose:
     sooner = scheduling(once(0.9, 1), once(0.2, 2, SECOND))
     cases.append(("one that is due before those that wait", alone(sooner, tell(1), s.Pause(100), tell(2), after(0.9))))
     many = scheduling(
-        *identified(*(once(0.5 + 0.05 * (number % 11), 1) for number in range(_DOZENS))), on_trigger=ASKS[:1]
+        *identified(*(once(0.5 + 0.15 * (number % 7), 1) for number in range(_DOZENS))), on_trigger=ASKS[:1]
     )
     others = {"second": scheduling(*identified(once(0.4, 1)))}
-    cases.append(("dozens", together({"many": many, **others}, tell(1, "many"), tell(1, "second"), after(1))))
+    cases.append(("dozens", together({"many": many, **others}, tell(1, "many"), tell(1, "second"), after(1.4))))
     parallel = scheduling(once(0.3, 1), once(0.4, 2, SECOND), once(0.5, 3, THIRD), policies=(UNPROTECTED, SCHEDULES))
     callers = [s.Invoke("tell", value, thread=f"teller {value}") for value in (1, 2, 3)]
     joined = [s.Join(caller.thread or "") for caller in callers]
