@@ -14,7 +14,7 @@ EXTRAS: Mapping[str, tuple[str, ...]] = {
     "toolchain": ("clang", "lark", "re2"),
     "certificates": ("cryptography", "securesystemslib", "zstandard"),
     "history": ("duckdb",),
-    "campaigns": ("cryptography", "distributed"),
+    "campaigns": ("bokeh", "cryptography", "distributed"),
 }
 """The top-level modules that each extra of ``pyproject.toml`` brings."""
 

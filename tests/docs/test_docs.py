@@ -315,9 +315,7 @@ def test_words_of_scenarios() -> None:
 
 def test_campaign_of_the_page(here: Path) -> None:
     write_files("docs/campaigns.md")
-    dry, ran = (
-        c for c in commands("ucm-cts campaign") if c.startswith("ucm-cts campaign plan.toml") and "tcp" not in c
-    )
+    dry, ran = dict.fromkeys(c for c in commands("ucm-cts campaign plan.toml") if "tcp" not in c)
     outcome = ucm_cts(*dry.split()[1:])
     assert (outcome.status, outcome.err) == (0, "")
     with LocalCluster(
