@@ -41,20 +41,8 @@ def limits_of(run: PlannedRun) -> Limits:
 
 def purposes_of(run: PlannedRun, statement: Statement) -> tuple[TestPurpose, ...]:
     """The test purposes of ``run``, whose ``statement`` is given, in their order; none if it selects none."""
-    key = (run.stated, run.profile, run.systematic, run.select)
-    known = _PURPOSES.get(key)
-    if known is None:
-        offered = purposes_for(statement, run.profile, run.systematic)
-        known = select(offered, run.select) if run.select else offered
-        if len(_PURPOSES) >= _MOST_KNOWN:
-            _PURPOSES.clear()
-        _PURPOSES[key] = known
-    return known
-
-
-_MOST_KNOWN = 8
-_PURPOSES: dict[tuple[str, str, int, str], tuple[TestPurpose, ...]] = {}
-"""A worker has many units with the same purposes; by the digest of the statement, profile, systematic and selection."""
+    offered = purposes_for(statement, run.profile, run.systematic)
+    return select(offered, run.select) if run.select else offered
 
 
 def product_digest(endpoint: Endpoint, artifacts: tuple[str, ...]) -> str:

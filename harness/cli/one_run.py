@@ -24,15 +24,15 @@ def carry_out(
     ``draw`` returns how many causes of failure drawn scenarios show. ``which`` run it is goes before each line of progress; the purposes
     with the ids ``done`` were checked before. ``between`` is called after each purpose, and may raise.
     """
-    sizes = {purpose.id: len(purpose.scenarios) for purpose in purposes}
+    total = sum(len(purpose.scenarios) for purpose in purposes)
+    completed = sum(len(purpose.scenarios) for purpose in purposes if purpose.id in done)
     with progress_of(console) as progress:
-        completed = sum(sizes.get(purpose, 0) for purpose in done)
-        task = progress.add_task(f"{which}checking", total=sum(sizes.values()), completed=completed)
+        task = progress.add_task(f"{which}checking", total=total, completed=completed)
         failing = 0
         for checked in campaign.check(purposes):
             failing += bool(checked.failures)
             text = f"{which}{failing} failing, {one_line(checked.purpose.id, 50)}"
-            progress.update(task, advance=sizes[checked.purpose.id], description=text)
+            progress.update(task, advance=checked.executions, description=text)
             between()
         if draw is not None:
             progress.update(task, description=f"{which}drawing scenarios")

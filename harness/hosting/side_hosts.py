@@ -32,7 +32,7 @@ class SideHosts:
 
     def submit(self, run: m.Run) -> Future[Answer]:
         """Run it as soon as a place is free. The future raises whatever keeps a host from answering."""
-        return self._pool.submit(self._in_place, lambda hosts: next(iter(hosts.run([run]))))
+        return self._pool.submit(self._in_place, lambda hosts: next(hosts.run([run])))
 
     def submit_again(self, run: m.Run, one_core: bool, first: Sequence[m.Run]) -> Future[Answer]:
         """The same with ``run_again`` of ``Hosts``, not streamed."""

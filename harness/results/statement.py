@@ -35,14 +35,15 @@ class Quantity:
 
 
 HOSTS_AT_ONCE = "hosts-at-once"
+"""The quantity that says how many hosts a run may have at once."""
 
 IXIT: Mapping[str, Quantity] = {
     HOSTS_AT_ONCE: Quantity(
         1,
         "hosts",
         "so many processes with the product may work at once; scenarios that wait then do so side by side",
-        64,
-        1,
+        greatest=64,
+        least=1,
     ),
     "patience": Quantity(
         2000, "ms", "within this time comes what comes by itself: runs, messages, records, waiting calls", least=1

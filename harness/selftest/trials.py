@@ -247,15 +247,9 @@ def _incidents_of(campaign: Campaign) -> tuple[str, ...]:
 
 def _purposes(subject: Subject, how: Thoroughness, profile: str, statement: Statement) -> Sequence[TestPurpose]:
     """Those for what the subject breaks come first."""
-    purposes = [p for p in _purposes_for(msgspec.json.encode(statement), profile) if p.id.startswith(how.beginning)]
+    purposes = [p for p in purposes_for(statement, profile) if p.id.startswith(how.beginning)]
     own = purposes if how.whole else [p for p in purposes if p.clause.startswith(subject.clauses)]
     return sorted(own, key=lambda purpose: not set(subject.breaks).intersection(purpose.requirements))
-
-
-@functools.lru_cache(maxsize=2)
-def _purposes_for(statement: bytes, profile: str) -> tuple[TestPurpose, ...]:
-    """``purposes_for`` the ``statement`` in JSON: many subjects, one after the other, state the same."""
-    return purposes_for(msgspec.json.decode(statement, type=Statement), profile)
 
 
 def _statement(subject: Subject) -> Statement:

@@ -29,6 +29,14 @@ def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> t
     """The test purposes of ``profile``, with the scenarios that need only claimed parts; systematic suites are
     those for ``extra_states`` additional states. A few that have something for every requirement come first.
     """
+    stated = msgspec.structs.replace(statement, source="", folder="")  # where it is written decides nothing here
+    return _purposes_for(msgspec.json.encode(stated), profile, extra_states)
+
+
+@functools.lru_cache(maxsize=8)
+def _purposes_for(stated: bytes, profile: str, extra_states: int) -> tuple[TestPurpose, ...]:
+    """The same for a statement in JSON: self-tests and campaigns ask for the same ones again and again."""
+    statement = msgspec.json.decode(stated, type=Statement)
     reduced = (_reduced(purpose, statement) for purpose in _all_purposes(statement, profile, extra_states))
     return _every_requirement_early(tuple(purpose for purpose in reduced if purpose.scenarios))
 

@@ -163,7 +163,7 @@ def breaks(
 
     def register(mixin: type) -> type:
         name = mixin.__name__
-        assert name not in MUTANTS, name
+        assert adapter_of(name) is None, name
         adapter = bind(name, mixin, mixin.__doc__)
         MUTANTS[name] = Mutant(name, adapter, requirements, also, clauses, readings, _variant_below(mixin))
         return mixin
@@ -203,7 +203,7 @@ def variant_of(*clauses: str, readings: Mapping[str, str] = {}) -> Callable[[typ
 
     def register(mixin: type) -> type:
         name = mixin.__name__
-        assert name not in VARIANTS, name
+        assert adapter_of(name) is None, name
         VARIANTS[name] = Variant(name, bind(name, mixin, mixin.__doc__), clauses, readings)
         return mixin
 

@@ -100,10 +100,13 @@ class SetsTimers(OffersServices):
 
         def enter() -> None:
             if timers.take(timer):
-                self._callback_of(member).call(s.ON_TIMEOUT, [self._told(member, timer), timer.number])
+                self._call_body(member, timer)
 
         with suppress(Exception):
             self._execute_callback(member, lambda: timers.trigger.run(enter))
+
+    def _call_body(self, member: Member, timer: Timer) -> None:
+        self._callback_of(member).call(s.ON_TIMEOUT, [self._told(member, timer), timer.number])
 
     def _execute_callback(self, member: Member, work: Callable[[], None]) -> None:
         """A callback is executed as a call of a port element that the execution policy does not manage."""

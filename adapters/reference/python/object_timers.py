@@ -191,11 +191,14 @@ class SchedulesTimers(SetsTimers):
 
         def enter() -> None:
             if triggers.take(timer):
-                told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
-                self._handler_of(timer).on_trigger(*told)  # type: ignore[arg-type]
+                self._call_handler(triggers, timer)
 
         with suppress(Exception):
             self._execute_callback(member, lambda: triggers.trigger.run(enter))
+
+    def _call_handler(self, triggers: Triggers, timer: Trigger) -> None:
+        told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
+        self._handler_of(timer).on_trigger(*told)  # type: ignore[arg-type]
 
     def _timer_told(self, triggers: Triggers, timer: Trigger) -> ObjectTimer | None:
         return triggers.given(timer)

@@ -79,9 +79,8 @@ class enters_beside_executions_from_the_second_round_on(Base):
         if not timer.round:
             super()._trigger(member, triggers, timer)
         elif triggers.take(timer):
-            told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
             with suppress(Exception):
-                timer.handler.on_trigger(*told)  # type: ignore[arg-type]
+                self._call_handler(triggers, timer)
 
 
 @breaks("R-10.3.1-32", clauses=TRIGGERED, readings={"second-timer-policy": "separate"}, also=MISSING_TRIGGERS)
@@ -215,8 +214,7 @@ class triggers_what_waited_when_it_stopped(Base):
 
         def enter() -> None:
             if triggers.take(timer):
-                told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
-                timer.handler.on_trigger(*told)  # type: ignore[arg-type]
+                self._call_handler(triggers, timer)
 
         with suppress(Exception):
             self._execute_callback(member, enter)
@@ -281,31 +279,23 @@ class loses_one_of_the_rounds_that_wait(Triggers):
 
 
 class _Raising(Base):
-    """``_take_exception`` is told of a handler that raised, with all that it was told."""
+    """``_take_exception`` is told of a handler that raised."""
 
-    def _take_exception(self, triggers: Triggers, timer: Trigger, told: tuple[object, ...]) -> None:
+    def _take_exception(self, triggers: Triggers, timer: Trigger) -> None:
         raise NotImplementedError
 
-    def _trigger(self, member: Member, triggers: Triggers, timer: Timer) -> None:
-        assert isinstance(timer, Trigger)
-
-        def enter() -> None:
-            if triggers.take(timer):
-                told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
-                try:
-                    timer.handler.on_trigger(*told)  # type: ignore[arg-type]
-                except Exception:  # noqa: BLE001 - a handler may raise any
-                    self._take_exception(triggers, timer, told)
-
-        with suppress(Exception):
-            self._execute_callback(member, lambda: triggers.trigger.run(enter))
+    def _call_handler(self, triggers: Triggers, timer: Trigger) -> None:
+        try:
+            super()._call_handler(triggers, timer)
+        except Exception:  # noqa: BLE001 - a handler may raise any
+            self._take_exception(triggers, timer)
 
 
 @breaks("R-10.3.1-34", clauses=TRIGGERED, also=MISSING_TRIGGERS)
 class ends_all_timers_when_a_handler_raises(_Raising):
     """When a handler raises, all timers of its component end."""
 
-    def _take_exception(self, triggers: Triggers, timer: Trigger, told: tuple[object, ...]) -> None:
+    def _take_exception(self, triggers: Triggers, timer: Trigger) -> None:
         triggers._waiting.clear()
 
 
@@ -313,7 +303,7 @@ class ends_all_timers_when_a_handler_raises(_Raising):
 class makes_no_timers_after_a_handler_raised(_Raising):
     """Timers that are made after a handler raised never trigger."""
 
-    def _take_exception(self, triggers: Triggers, timer: Trigger, told: tuple[object, ...]) -> None:
+    def _take_exception(self, triggers: Triggers, timer: Trigger) -> None:
         triggers._start = lambda timer: None  # type: ignore[method-assign]
 
 
@@ -321,8 +311,8 @@ class makes_no_timers_after_a_handler_raised(_Raising):
 class triggers_again_when_a_handler_raises(_Raising):
     """A handler that raises is triggered again at once."""
 
-    def _take_exception(self, triggers: Triggers, timer: Trigger, told: tuple[object, ...]) -> None:
-        timer.handler.on_trigger(*told)  # type: ignore[arg-type]
+    def _take_exception(self, triggers: Triggers, timer: Trigger) -> None:
+        Base._call_handler(self, triggers, timer)
 
 
 @breaks("R-10.3.1-23", clauses=TRIGGERED, readings={"callback-exception": "continues"}, also=MISSING_TRIGGERS)

@@ -184,7 +184,7 @@ def keeps_requests_broken(_self: Link) -> bool:
 
 
 @breaks("R-10.4.1.2-04", clauses=REQUESTS)
-class swallows_exceptions(Link):
+class swallows_exceptions_of_servers(Link):
     """A client whose server raises an exception gets an empty response, and ok."""
 
     def _request_and_wait(self, client: End, request: Datum) -> list[Datum]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
 from ucm_cts.adapters.mutants.python.variants.triggered_apart import EndsTimersThatRaise
 from ucm_cts.adapters.reference.python.members import Member
@@ -50,18 +49,11 @@ class _Raising(Base):
     def _take_exception(self, timers: Timers) -> None:
         raise NotImplementedError
 
-    def _call_back(self, member: Member, timer: Timer) -> None:
-        timers = self._timers_of(member)
-
-        def enter() -> None:
-            if timers.take(timer):
-                try:
-                    self._callback_of(member).call(s.ON_TIMEOUT, [self._told(member, timer), timer.number])
-                except Exception:  # noqa: BLE001 - a callback may raise any
-                    self._take_exception(timers)
-
-        with suppress(Exception):
-            self._execute_callback(member, lambda: timers.trigger.run(enter))
+    def _call_body(self, member: Member, timer: Timer) -> None:
+        try:
+            super()._call_body(member, timer)
+        except Exception:  # noqa: BLE001 - a callback may raise any
+            self._take_exception(self._timers_of(member))
 
 
 @breaks("R-10.3.2-36", clauses=TIMED, also=MISSING_CALLBACKS)
@@ -99,7 +91,7 @@ class serves_what_waited_when_it_stopped(Base):
 
         def enter() -> None:
             if timers.take(timer):
-                self._callback_of(member).call(s.ON_TIMEOUT, [self._told(member, timer), timer.number])
+                self._call_body(member, timer)
 
         with suppress(Exception):
             self._execute_callback(member, enter)

@@ -13,7 +13,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 
-from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.mutants.python.registry import TIMED, TRIGGERED, Base, variant_of
 from ucm_cts.adapters.mutants.python.variants import timed
 from ucm_cts.adapters.mutants.python.variants.triggered import (
@@ -205,20 +204,12 @@ class tells_rounds_left_of_repeated_triggers(Base):
 class EndsObjectsThatRaise(Base):
     """A repeated timer whose handler raises triggers no more."""
 
-    def _trigger(self, member: Member, triggers: Triggers, timer: Timer) -> None:
-        assert isinstance(timer, Trigger)
-
-        def enter() -> None:
-            if triggers.take(timer):
-                told = self._timer_told(triggers, timer), self._delta_time(timer), self._round_told(timer)
-                try:
-                    timer.handler.on_trigger(*told)  # type: ignore[arg-type]
-                except Exception:
-                    triggers._waiting.pop(timer.number, None)
-                    raise
-
-        with suppress(Exception):
-            self._execute_callback(member, lambda: triggers.trigger.run(enter))
+    def _call_handler(self, triggers: Triggers, timer: Trigger) -> None:
+        try:
+            super()._call_handler(triggers, timer)
+        except Exception:
+            triggers._waiting.pop(timer.number, None)
+            raise
 
 
 @variant_of(*TRIGGERED, readings={"callback-exception": "ends"})
@@ -234,19 +225,12 @@ class ends_objects_whose_handler_raises_unasked(EndsObjectsThatRaise):
 class EndsTimersThatRaise(Base):
     """A periodic timer whose callback raises calls back no more."""
 
-    def _call_back(self, member: Member, timer: Timer) -> None:
-        timers = self._timers_of(member)
-
-        def enter() -> None:
-            if timers.take(timer):
-                try:
-                    self._callback_of(member).call(s.ON_TIMEOUT, [self._told(member, timer), timer.number])
-                except Exception:
-                    timers._waiting.pop(timer.number, None)
-                    raise
-
-        with suppress(Exception):
-            self._execute_callback(member, lambda: timers.trigger.run(enter))
+    def _call_body(self, member: Member, timer: Timer) -> None:
+        try:
+            super()._call_body(member, timer)
+        except Exception:
+            self._timers_of(member)._waiting.pop(timer.number, None)
+            raise
 
 
 @variant_of(*TIMED, readings={"callback-exception": "ends"})
