@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import sys
+import threading
 from collections.abc import Callable, Mapping
 from functools import partial
 from time import sleep, time_ns  # an adapter may change what the module has, not these
@@ -98,6 +99,7 @@ class Performance(metaclass=KeptClass):
         ]
         self._manager = adapter.create_runtime(implementations)
         self._operations = Operations(adapter, self._manager, scenario, self._stage, patience)
+        self._turn = threading.Lock()
 
     def run(self) -> tuple[tuple[t.Event, ...], tuple[str, ...]]:
         """Take all steps; returns the events and the names of the threads that never came back.
@@ -183,14 +185,16 @@ class Performance(metaclass=KeptClass):
 
     def _call(self, number: int, step: Step) -> None:
         record = self._recorder.record
+        # in one turn, so that the trace has a variable bound before it has it used
+        with self._turn:
+            try:
+                operate = self._operations.call_of(step)
+            except Unbound as missing:
+                record(t.Skip, step=number, variable=missing.variable)
+                return
+            record(t.Call, step=number)
         try:
-            operate = self._operations.call_of(step)
-        except Unbound as missing:
-            record(t.Skip, step=number, variable=missing.variable)
-            return
-        record(t.Call, step=number)
-        try:
-            value = operate()
+            result = operate()
         except NotOffered:
             record(t.Skip, step=number, variable=s.operation(step))
         except ContractBroken as error:
@@ -201,13 +205,20 @@ class Performance(metaclass=KeptClass):
             detail = _text(error) if declared else _describe(error)
             record(t.Raise, step=number, error=declared or "UNDECLARED", detail=detail)
         else:
-            if step.returns == "records":
-                record(t.Return, step=number, records=value)
-            elif isinstance(step, s.Invoke):
-                given: dict[str, Any] = {"value": int(value)} if is_integer(value) else {"wrong": in_words(value)}
-                record(t.Return, step=number, **given)
-            else:
-                record(t.Return, step=number, value=value if step.returns else None)
+            recorded = self._recorded(step, result)
+            with self._turn:
+                self._operations.bind(step, result)
+                record(t.Return, step=number, **recorded)
+
+    def _recorded(self, step: Step, result: Any) -> dict[str, Any]:
+        """The fields of the event that say what the call of ``step`` returned."""
+        if step.returns == "records":
+            return {"records": result}
+        if isinstance(step, s.Invoke):
+            return {"value": int(result)} if is_integer(result) else {"wrong": in_words(result)}
+        if isinstance(step, s.GetPortElement):
+            return {"value": self._stage.recognise(result)}
+        return {"value": result if step.returns else None}
 
 
 def _describe(error: BaseException) -> str:

@@ -44,6 +44,22 @@ class Operations(metaclass=KeptClass):
         """The call that ``step`` makes. Raises ``Unbound`` if a variable that it needs has no value."""
         return _CALLS[type(step)](self, step)
 
+    def bind(self, step: Step, result: Any) -> None:
+        """Bind what the call of ``step`` returned to the variable of the step, if it has one."""
+        match step:
+            case s.AddComponent():
+                self._variables.bind_id(step.bind or step.component, result)
+            case s.Connect():
+                self._variables.bind_id(step.bind, result)
+            case s.GetPortElement():
+                self._variables.bind_reference(step.bind, result)
+            case s.CreateContainer():
+                self._variables.bind_container(step.bind, result)
+            case s.Link():
+                self._variables.bind_link(step.bind, result)
+            case s.GetComponents():
+                self._variables.saw(result)
+
     def parts(self) -> tuple[object, ...]:
         """The objects of the SDK that an adapter must not change: this one, and those that it is made of."""
         return self, self._variables
@@ -59,12 +75,7 @@ class Operations(metaclass=KeptClass):
         for name, value in declaration.attributes.items() if declaration else ():
             attributes.setdefault(name, value)
 
-        def operate() -> int:
-            given = _integer(self._adapter.add_component(container, step.component, attributes))
-            self._variables.bind_id(step.bind or step.component, given)
-            return given
-
-        return operate
+        return lambda: _integer(self._adapter.add_component(container, step.component, attributes))
 
     def _remove_component(self, step: s.RemoveComponent) -> Callable[[], Any]:
         container, member = self._variables.container(step.container), self._variables.id(step.id)
@@ -72,24 +83,12 @@ class Operations(metaclass=KeptClass):
 
     def _get_port_element(self, step: s.GetPortElement) -> Callable[[], Any]:
         container, member = self._variables.container(step.container), self._variables.id(step.id)
-
-        def operate() -> Any:
-            reference = self._adapter.get_port_element(container, member, step.port)
-            self._variables.bind_reference(step.bind, reference)
-            return self._stage.recognise(reference)
-
-        return operate
+        return partial(self._adapter.get_port_element, container, member, step.port)
 
     def _connect(self, step: s.Connect) -> Callable[[], Any]:
         container, member = self._variables.container(step.container), self._variables.id(step.id)
         reference = self._variables.reference(step.to)
-
-        def operate() -> int:
-            given = _integer(self._adapter.connect(container, member, step.port, reference))
-            self._variables.bind_id(step.bind, given)
-            return given
-
-        return operate
+        return lambda: _integer(self._adapter.connect(container, member, step.port, reference))
 
     def _disconnect(self, step: s.Disconnect) -> Callable[[], Any]:
         container, connection = self._variables.container(step.container), self._variables.id(step.connection)
@@ -114,16 +113,12 @@ class Operations(metaclass=KeptClass):
                 raise ContractBroken(f"returned {shown(members)}; it returns a sequence of integers") from None
             except TooMany as many:
                 raise ContractBroken(f"returned {many} ids, which no scenario can have led to") from None
-            self._variables.saw(ids)
             return ids
 
         return operate
 
     def _create_container(self, step: s.CreateContainer) -> Callable[[], Any]:
-        def operate() -> None:
-            self._variables.bind_container(step.bind, self._adapter.create_container(self._manager))
-
-        return operate
+        return partial(self._adapter.create_container, self._manager)
 
     def _remove_container(self, step: s.RemoveContainer) -> Callable[[], Any]:
         container = self._variables.container(step.container)
@@ -147,15 +142,8 @@ class Operations(metaclass=KeptClass):
     def _link(self, step: s.Link) -> Callable[[], Any]:
         types = self._scenario.types.get(step.interface)
         if types is not None:
-            make = partial(self._adapter.link_with_types, self._manager, step.connector, types)
-        else:
-            interface = self._scenario.interfaces[step.interface]
-            make = partial(self._adapter.link, self._manager, step.connector, interface)
-
-        def operate() -> None:
-            self._variables.bind_link(step.bind, make())
-
-        return operate
+            return partial(self._adapter.link_with_types, self._manager, step.connector, types)
+        return partial(self._adapter.link, self._manager, step.connector, self._scenario.interfaces[step.interface])
 
     def _attach(self, step: s.Attach) -> Callable[[], Any]:
         link, container = self._variables.link(step.link), self._variables.container(step.container)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import re
+import sys
 import threading
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import pytest
@@ -220,6 +222,30 @@ def test_threads_that_never_come_back_are_stuck() -> None:
     trace = play({}, ["start thread=w", "get_components thread=v", "join worker=w"], Hangs, patience=30)
     assert trace[-2:] == ["timeout step=2", "stuck w"]
     assert Hangs.seen == []  # neither destroyed nor closed under the feet of a stuck thread
+
+
+def test_a_variable_is_bound_in_the_trace_before_it_is_used() -> None:
+    """Although a worker that nobody waits for any longer is slow to record what it has bound."""
+    used = threading.Event()
+
+    def wait_in_binding(frame: FrameType, event: str, _: object) -> None:
+        if event == "return" and frame.f_code.co_name == "bind_reference":
+            used.wait(0.2)
+
+    class IsSlowToBind(ReferenceAdapter):
+        def get_port_element(self, container: Any, comp_instance: int, port_name: str) -> PortElementObject | None:
+            sys.setprofile(wait_in_binding)
+            return super().get_port_element(container, comp_instance, port_name)
+
+        def connect(self, *given: Any) -> int:
+            used.set()
+            return super().connect(*given)
+
+    steps = ["add_component component=sink", "add_component component=source",
+             "get_port_element id=sink port=in bind=p thread=w", "settle worker=w", "join worker=w",
+             "connect id=source port=out to=p bind=c"]  # fmt: skip
+    trace = play({"sink": SINK, "source": SOURCE}, steps, IsSlowToBind, patience=20)
+    assert trace[-1] in ("return step=5 value=3", "skip step=5 variable=p")
 
 
 def test_probes_are_silent_after_the_scenario() -> None:

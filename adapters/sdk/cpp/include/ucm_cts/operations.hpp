@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -46,7 +47,7 @@ class Operations {
 
     void perform(std::int64_t number, const Step& step) {
         Arguments arguments;
-        if (resolve(number, step, arguments)) {
+        if (begin(number, step, arguments)) {
             call(number, step, arguments);
         }
     }
@@ -76,6 +77,16 @@ class Operations {
         Id id = 0;
         Reference reference;
     };
+
+    // In one turn, so that the trace has a variable bound before it has it used.
+    bool begin(std::int64_t number, const Step& step, Arguments& arguments) {
+        std::lock_guard<std::mutex> lock(turn_);
+        const bool complete = resolve(number, step, arguments);
+        if (complete) {
+            stage_->recorder.record(events::Call(number));
+        }
+        return complete;
+    }
 
     // Looks up what the step needs, in the order of its arguments; records `skip` for the first that is not there.
     bool resolve(std::int64_t number, const Step& step, Arguments& arguments) {
@@ -117,7 +128,6 @@ class Operations {
     }
 
     void call(std::int64_t number, const Step& step, const Arguments& arguments) {
-        stage_->recorder.record(events::Call(number));
         try {
             operate(number, step, arguments);
         } catch (const UnknownStep&) {
@@ -160,6 +170,7 @@ class Operations {
                     attributes.insert(declaration->attributes.begin(), declaration->attributes.end());
                 }
                 const Id id = adapter_->add_component(with.container, step.component, attributes);
+                std::lock_guard<std::mutex> lock(turn_);
                 variables_.bind_id(step.bind.empty() ? step.component : step.bind, id);
                 return returned(number, id);
             }
@@ -168,11 +179,13 @@ class Operations {
                 break;
             case Operation::get_port_element: {
                 const Reference reference = adapter_->get_port_element(with.container, with.id, step.port);
+                std::lock_guard<std::mutex> lock(turn_);
                 variables_.bind_reference(step.bind, reference);
                 return returned(number, reference);
             }
             case Operation::connect: {
                 const Id id = adapter_->connect(with.container, with.id, step.port, with.reference);
+                std::lock_guard<std::mutex> lock(turn_);
                 variables_.bind_id(step.bind, id);
                 return returned(number, id);
             }
@@ -190,12 +203,16 @@ class Operations {
                 if (is_too_much(ids.size(), "get_components", "ids")) {
                     break;
                 }
+                std::lock_guard<std::mutex> lock(turn_);
                 variables_.saw(ids);
                 return returned(number, ids);
             }
-            case Operation::create_container:
-                variables_.bind_container(step.bind, adapter_->create_container(manager_));
-                break;
+            case Operation::create_container: {
+                const ContainerHandle container = adapter_->create_container(manager_);
+                std::lock_guard<std::mutex> lock(turn_);
+                variables_.bind_container(step.bind, container);
+                return stage_->recorder.record(events::Return(number));
+            }
             case Operation::remove_container:
                 adapter_->remove_container(manager_, with.sub_container);
                 break;
@@ -207,12 +224,13 @@ class Operations {
                 return returned(number, with.reference->exchange(step.value));
             case Operation::link: {
                 const auto types = scenario_->types.find(step.interface);
-                variables_.bind_link(
-                    step.bind,
+                const LinkHandle link =
                     types != scenario_->types.end()
                         ? adapter_->link_with_types(manager_, step.connector, types->second)
-                        : adapter_->link(manager_, step.connector, scenario_->interfaces.at(step.interface)));
-                break;
+                        : adapter_->link(manager_, step.connector, scenario_->interfaces.at(step.interface));
+                std::lock_guard<std::mutex> lock(turn_);
+                variables_.bind_link(step.bind, link);
+                return stage_->recorder.record(events::Return(number));
             }
             case Operation::attach:
                 adapter_->attach(with.link, step.role, with.container, with.id, step.port);
@@ -284,6 +302,7 @@ class Operations {
     const std::shared_ptr<const Scenario> scenario_;
     const std::shared_ptr<Stage> stage_;
     const ContainerHandle manager_;
+    std::mutex turn_;
     Variables variables_;
     std::atomic<bool> destroyed_{false};
 };

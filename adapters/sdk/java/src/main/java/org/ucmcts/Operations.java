@@ -74,16 +74,21 @@ final class Operations<C> {
         Recorder recorder = stage.recorder;
         String name = step.tag();
         Operation operation;
-        try {
-            operation = prepare(step);
-        } catch (Unbound missing) {
-            recorder.record("skip", "step", number, "variable", missing.getMessage());
-            return;
+        synchronized (variables) { // in one turn, so that the trace has a variable bound before it has it used
+            try {
+                operation = prepare(step);
+            } catch (Unbound missing) {
+                recorder.record("skip", "step", number, "variable", missing.getMessage());
+                return;
+            }
+            recorder.record("call", "step", number);
         }
-        recorder.record("call", "step", number);
         try {
-            Object value = operation.call();
-            recorder.record("return", "step", number, name.equals("read_log") ? "records" : "value", value);
+            Object result = operation.call();
+            synchronized (variables) {
+                Object value = bind(step, result);
+                recorder.record("return", "step", number, name.equals("read_log") ? "records" : "value", value);
+            }
         } catch (NotOffered error) {
             recorder.record("skip", "step", number, "variable", name);
         } catch (ContractBroken error) {
@@ -94,6 +99,31 @@ final class Operations<C> {
         } catch (Throwable error) { // a framework may throw anything
             recorder.record("raise", "step", number, "error", "UNDECLARED", "detail", Details.described(error));
         }
+    }
+
+    // binds what the call returned to the variable of the step, if it has one; gives what the trace records of it
+    @SuppressWarnings("unchecked") // the calls of these steps return nothing else
+    private Object bind(Step step, Object result) {
+        switch (step.tag()) {
+            case "add_component" -> variables.bindId(
+                    step.bind().isEmpty() ? step.component() : step.bind(), (Integer) result);
+            case "connect" -> variables.bindId(step.bind(), (Integer) result);
+            case "get_components" -> variables.saw((List<Integer>) result);
+            case "get_port_element" -> {
+                variables.bindReference(step.bind(), (PortElement) result);
+                return stage.recognise((PortElement) result);
+            }
+            case "create_container" -> {
+                variables.bindContainer(step.bind(), (C) result);
+                return null;
+            }
+            case "link" -> {
+                variables.bindLink(step.bind(), result);
+                return null;
+            }
+            default -> {}
+        }
+        return result;
     }
 
     // looks up what the step needs, and gives the call that is then made and recorded
@@ -121,8 +151,7 @@ final class Operations<C> {
                 yield silent(() -> adapter.stop(container));
             }
             case "get_components" -> getComponents(step);
-            case "create_container" -> silent(
-                    () -> variables.bindContainer(step.bind(), adapter.createContainer(manager)));
+            case "create_container" -> () -> adapter.createContainer(manager);
             case "remove_container" -> {
                 C container = container(step);
                 yield silent(() -> adapter.removeContainer(manager, container));
@@ -141,9 +170,9 @@ final class Operations<C> {
             case "link" -> {
                 Object types = scenario.types().get(step.interface_());
                 Node type = types == null ? scenario.interfaces().get(step.interface_()) : (Node) types;
-                return silent(() -> variables.bindLink(step.bind(), types == null
+                return () -> types == null
                         ? adapter.link(manager, step.connector(), type)
-                        : adapter.linkWithTypes(manager, step.connector(), type)));
+                        : adapter.linkWithTypes(manager, step.connector(), type);
             }
             case "attach", "detach" -> {
                 Object link = variables.link(step.link());
@@ -192,32 +221,20 @@ final class Operations<C> {
         if (declaration != null) {
             declaration.attributes().forEach(attributes::putIfAbsent);
         }
-        return () -> {
-            int given = adapter.addComponent(container, component, attributes);
-            variables.bindId(step.bind().isEmpty() ? component : step.bind(), given);
-            return given;
-        };
+        return () -> adapter.addComponent(container, component, attributes);
     }
 
     private Operation getPortElement(Step step) throws Unbound {
         C container = container(step);
         int member = variables.id(step.id());
-        return () -> {
-            PortElement reference = adapter.getPortElement(container, member, step.port());
-            variables.bindReference(step.bind(), reference);
-            return stage.recognise(reference);
-        };
+        return () -> adapter.getPortElement(container, member, step.port());
     }
 
     private Operation connect(Step step) throws Unbound {
         C container = container(step);
         int member = variables.id(step.id());
         PortElement reference = variables.reference(step.to());
-        return () -> {
-            int given = adapter.connect(container, member, step.port(), reference);
-            variables.bindId(step.bind(), given);
-            return given;
-        };
+        return () -> adapter.connect(container, member, step.port(), reference);
     }
 
     private Operation getComponents(Step step) throws Unbound {
@@ -230,9 +247,7 @@ final class Operations<C> {
             if (members.size() > Data.MOST) {
                 throw new ContractBroken("returned " + Data.tooMany("ids") + ", which no scenario can have led to");
             }
-            List<Integer> ids = List.copyOf(members);
-            variables.saw(ids);
-            return ids;
+            return List.copyOf(members);
         };
     }
 
