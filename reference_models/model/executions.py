@@ -256,21 +256,6 @@ class Executions:
                         self.waiting[call.n] = call, execution
 
 
-class NoExecutions(Executions):
-    """Stands for the executions of scenarios without policies: nothing is recorded and no call waits."""
-
-    _NOTHING = Execution(Enter(0, 0, 0, "", 0, "exchange"), None)
-
-    def begin(self, enter: Enter, call: BusinessCall | None) -> Execution:
-        """Nothing is recorded."""
-        return self._NOTHING
-
-    def _ignore(self, *events: object, **named: object) -> None:
-        """Nothing is recorded."""
-
-    made = start_up = answered = innermost = end = hold = open = settle = _ignore
-
-
 def without_policy(runtime: Runtime, container: Container) -> list[Member]:
     """The members of ``container`` without execution policy, where that is the only reason to refuse its start; none in a scenario that
     knows no policies.

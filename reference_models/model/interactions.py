@@ -49,6 +49,9 @@ class Interactions:
         """A step for connectors has ended: the link it was about, as it is now."""
         if isinstance(step, s.Link):
             if isinstance(end, t.Return):
+                earlier = self.links.get(step.bind)
+                if earlier is not None:  # the variable is bound anew; what was attached to the earlier one still is
+                    self.links[f"{step.bind}, {len(self.links)}"] = earlier
                 self.links[step.bind] = LinkState(step.bind, step.connector, step.interface)
             return self.links.get(step.bind)
         link = self.links.get(step.link)
@@ -66,7 +69,9 @@ class Interactions:
 
     def operate(self, step: s.Step, begin: t.Call) -> None:
         """A step is handed to the framework."""
-        operation = self.in_progress[begin.step] = Operation(step, begin)
+        container = self._runtime.containers.get(getattr(step, "container", ""))
+        member, link = self._runtime.members.get(getattr(step, "id", "")), self.links.get(getattr(step, "link", ""))
+        operation = self.in_progress[begin.step] = Operation(step, begin, container, member, link)
         self.operations.append(operation)
         if not step.reads_only:
             self.changes.append(operation)
@@ -93,8 +98,8 @@ class Interactions:
 
     def has_refused(self, link: LinkState, role: str) -> bool:
         """Was an end of ``role`` refused?"""
-        refused = (o.step for o in self.operations if isinstance(o.end, t.Raise))
-        return any(isinstance(a, s.Attach) and (a.link, a.role) == (link.name, role) for a in refused)
+        of_link = (o for o in self.operations if o.link is link and isinstance(o.end, t.Raise))
+        return any(isinstance(o.step, s.Attach) and o.step.role == role for o in of_link)
 
     @property
     def is_joining(self) -> bool:
@@ -119,8 +124,8 @@ class Interactions:
             isinstance(o.end, t.Return) and o.begin.n > attached and o.end.n < moment
             for o in self.operations
             if isinstance(o.step, s.RemoveComponent)
-            or (isinstance(o.step, s.Detach) and (o.step.link, o.step.port) == (link.name, delivery.enter.port))
-            if self._runtime.members.get(o.step.id) is member
+            or (isinstance(o.step, s.Detach) and o.link is link and o.step.port == delivery.enter.port)
+            if o.member is member
         )
 
     def ends_phases(self, begin: int, end: int) -> bool:
@@ -369,19 +374,6 @@ class Interactions:
         if call.caller is None or receiver is None:
             return False
         return any(c.provider is receiver for c in connections_behind(call.caller, call.request.port))
-
-
-class NoInteractions(Interactions):
-    """Stands for the interactions of scenarios without interfaces and policies: nothing is recorded."""
-
-    def _ignore(self, *events: object, **named: object) -> None:
-        """Nothing is recorded."""
-
-    def improper(self, container: Container | None = None) -> list[LinkState]:
-        """There are no links."""
-        return []
-
-    operate = operated = request = enter = exit = push = wait = hold = open = settle = pause = _ignore
 
 
 def _waiting(calls: list[MethodCall], enter: t.Enter) -> list[MethodCall]:

@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.reference_models.model.executions import BusinessCall, connections_behind
 from ucm_cts.reference_models.model.links import End, LinkState
-from ucm_cts.reference_models.model.runtime import Member
+from ucm_cts.reference_models.model.runtime import Container, Member
 
 NEVER = 2**63
 """The ``n`` of an event that has not happened: later than all others."""
@@ -39,10 +39,17 @@ class Delivery:
 
 @dataclass(slots=True, eq=False)
 class Operation:
-    """A step that was handed to the framework; ``end`` is None while it has not ended."""
+    """A step that was handed to the framework.
+
+    ``container``, ``member``, ``link``: what its variables held when it began, None if that is unknown; later steps may bind them anew.
+    ``end``: None while it has not ended.
+    """
 
     step: s.Step
     begin: t.Call
+    container: Container | None
+    member: Member | None
+    link: LinkState | None
     end: t.Return | t.Raise | None = None
 
     def overlaps(self, begin: int, end: int) -> bool:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.reference_models.model.execution_policies import knows_policies
-from ucm_cts.reference_models.model.executions import Executions, NoExecutions
+from ucm_cts.reference_models.model.executions import Executions
 from ucm_cts.reference_models.model.ics import Ics
-from ucm_cts.reference_models.model.interactions import Interactions, NoInteractions
+from ucm_cts.reference_models.model.interactions import Interactions
+from ucm_cts.reference_models.model.nothing_recorded import NoExecutions, NoInteractions
 from ucm_cts.reference_models.model.paced_events import PacedPhase
 from ucm_cts.reference_models.model.request_events import Requests
 from ucm_cts.reference_models.model.runtime import Runtime

@@ -20,7 +20,7 @@ def phases_of(runtime: ObservedRuntime, member: Member) -> Iterator[Phase]:
         if start is None or exit_ is None:
             continue
         after = (o for o in runtime.interactions.changes if o.step.undoes == "phase" and o.begin.n > enter.n)
-        ending = next((o.begin for o in after if _may_end(runtime, member, o.step)), None)
+        ending = next((o.begin for o in after if _may_end(member, o)), None)
         until, ended_at = (ending.n, ending.t) if ending is not None else (NEVER, runtime.interactions.latest)
         yield Phase(member, number, start, enter, exit_, until, ended_at, end_of_phase(runtime, member, enter))
 
@@ -52,8 +52,8 @@ def end_of_phase(runtime: ObservedRuntime, member: Member, startup: Enter) -> in
         step, end = operation.step, operation.end
         if operation.begin.n < startup.n or not isinstance(end, Return):
             continue
-        of_container = isinstance(step, s.Stop | s.RemoveContainer) and _is_in(runtime, member, step.container)
-        of_member = isinstance(step, s.RemoveComponent) and runtime.members.get(step.id) is member
+        of_container = isinstance(step, s.Stop | s.RemoveContainer) and operation.container is member.container
+        of_member = isinstance(step, s.RemoveComponent) and operation.member is member
         if of_container or of_member or isinstance(step, s.Destroy):
             return end.n
     return NEVER
@@ -68,12 +68,9 @@ def _start_around(runtime: ObservedRuntime, enter: Enter) -> Operation | None:
     return None
 
 
-def _may_end(runtime: ObservedRuntime, member: Member, step: s.Step) -> bool:
-    """May ``step`` end the phase of ``member``? Stopping the manager may reach all containers."""
+def _may_end(member: Member, operation: Operation) -> bool:
+    """May ``operation`` end the phase of ``member``? Stopping the manager may reach all containers."""
+    step = operation.step
     if isinstance(step, s.Stop | s.RemoveContainer):
-        return step.container == s.MANAGER or _is_in(runtime, member, step.container)
-    return not isinstance(step, s.RemoveComponent) or runtime.members.get(step.id) in (None, member)
-
-
-def _is_in(runtime: ObservedRuntime, member: Member, container: str) -> bool:
-    return runtime.containers.get(container) is member.container
+        return step.container == s.MANAGER or operation.container is member.container
+    return not isinstance(step, s.RemoveComponent) or operation.member in (None, member)

@@ -8,6 +8,7 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
+from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.messages import counts, settling_time
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -63,10 +64,10 @@ def _may_be_broken(runtime: ObservedRuntime, call: MethodCall) -> bool:
     interactions = runtime.interactions
     if not any(link.was_broken for link in interactions.links.values()):
         return False
-    last: dict[str, Operation] = {}
+    last: dict[LinkState | None, Operation] = {}
     for o in interactions.changes:
         if isinstance(o.step, s.Break | s.Mend) and o.begin.n < call.request.n and not isinstance(o.end, Raise):
-            last[o.step.link] = o
+            last[o.link] = o
     known_by = call.request.t - settling_time(runtime)
     return any(isinstance(o.step, s.Break) or o.end is None or o.end.t > known_by for o in last.values())
 
@@ -112,19 +113,17 @@ def _takes_away(runtime: ObservedRuntime, one: ServiceCall, operation: Operation
     if not isinstance(step, s.Detach):
         return isinstance(step, s.Break | s.Mend)
     ends = (one.client, one.server)
-    return step.link == one.link.name and any(
-        (runtime.members.get(step.id), step.port) == (end.member, end.port) for end in ends
-    )
+    return operation.link is one.link and any((operation.member, step.port) == (end.member, end.port) for end in ends)
 
 
 def ended_by(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:
     """The operations that stopped its client or server, or undid its connection, once it had been made."""
-    containers = {one.client.member.container.name, one.server.member.container.name}
+    containers = (one.client.member.container, one.server.member.container)
     return [
         o
         for o in changes_beside(runtime, one)
         if o.begin.n > one.call.request.n and not isinstance(o.end, Raise)
-        if (isinstance(o.step, s.Stop) and o.step.container in containers)
+        if (isinstance(o.step, s.Stop) and o.container in containers)
         or (isinstance(o.step, s.Detach) and _takes_away(runtime, one, o))
     ]
 
@@ -235,7 +234,7 @@ def what_sets_apart(
 
 def _was_mended(runtime: ObservedRuntime, one: ServiceCall) -> bool:
     return any(
-        isinstance(o.step, s.Mend) and o.step.link == one.link.name and o.begin.n < one.call.request.n
+        isinstance(o.step, s.Mend) and o.link is one.link and o.begin.n < one.call.request.n
         for o in runtime.interactions.changes
     )
 

@@ -52,18 +52,18 @@ def changes(runtime: ObservedRuntime, link: LinkState) -> list[Operation]:
     need not be there afterwards.
     """
     places = [end.member.container for end in link.ends]
-    return [o for o in runtime.interactions.changes if _concerns(runtime, link, places, o.step)]
+    return [o for o in runtime.interactions.changes if _concerns(link, places, o)]
 
 
-def _concerns(runtime: ObservedRuntime, link: LinkState, places: Sequence[object], step: s.Step) -> bool:
+def _concerns(link: LinkState, places: Sequence[object], operation: Operation) -> bool:
+    step = operation.step
     if isinstance(step, s.Break | s.Mend):
         return True  # connections may share what is broken
     if isinstance(step, s.Attach | s.Detach):
-        return step.link == link.name
+        return operation.link is link
     if not step.undoes and not isinstance(step, s.Start):
         return False
-    container = runtime.containers.get(getattr(step, "container", ""))
-    return container is None or container in places
+    return operation.container is None or operation.container in places
 
 
 def is_disturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:

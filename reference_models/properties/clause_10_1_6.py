@@ -27,14 +27,14 @@ _STANDARD, _TEMPLATE = "R-10.1.6.1-10", "R-10.1.6.1-20"
 @property_at("closed", _EMITTERS, _RECEIVERS, _INDEPENDENCE, _STANDARD, _TEMPLATE)
 def messages_arrived(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Counts what the properties about missing messages checked: messages that reached every receiver they had to."""
-    arrived: dict[str, set[Member | None]] = {}
+    arrived: dict[LinkState, set[Member | None]] = {}
     interfaces = set()
     for call in msg.messages(runtime):
         ready = [end for end, was_ready in call.targets if was_ready and not msg.counts(end.member)]
         if call.link is None or not ready or not all(msg.was_delivered(call, end) for end in ready):
             continue
         yield check.kept(_STANDARD)
-        arrived.setdefault(call.link.name, set()).add(call.caller)
+        arrived.setdefault(call.link, set()).add(call.caller)
         interfaces.add(call.link.interface)
         if len(ready) > 1:
             yield check.kept(_INDEPENDENCE if msg.is_disturbed(runtime, call) else _RECEIVERS)
