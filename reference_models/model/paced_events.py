@@ -120,6 +120,11 @@ class PacedPhase:
         before = (sum(one.t < moment for one in self.executions) for moment in kept_out)
         return min(next(lasting, len(self.executions)), *before, len(self.executions))
 
+    @property
+    def may_catch_up(self) -> bool:
+        """Had a period or more passed after the first instant when the component became operational? Then what was due may come at once."""
+        return self.origins[1] - self.first(latest=False) >= self.period
+
     def first(self, latest: bool) -> int:
         """The earliest instant, or the latest one, at which the offset has passed."""
         return self.origins[latest] + self.offset

@@ -30,31 +30,6 @@ SUBJECTS = (
 DRAWN = 20
 
 
-def test_a_phase_ends_by_the_stop_of_a_container_whose_variable_is_bound_anew() -> None:
-    """Otherwise the timer of the stopped component had to call back."""
-    timer = [5, [1, "RELATIVE_TIME"]]
-    call = {
-        "do": "call_method",
-        "port": "timer.timer_service",
-        "method": "start_sporadic_scheduler",
-        "arguments": timer,
-    }
-    policies = [{"definition": "itt_timer", "element": "timer.timer_service"}]
-    steps = [
-        {"op": "create_container", "bind": "box"},
-        {"op": "add_component", "component": "timed", "container": "box"},
-        {"op": "start", "container": "box"},
-        {"op": "stop", "container": "box"},
-        {"op": "create_container", "bind": "box"},
-        {"op": "pause", "milliseconds": 1400},
-    ]
-    components = {"timed": {"plan": {"on_startup": [call]}, "policies": policies}}
-    scenario = msgspec.convert({"components": components, "steps": steps}, Scenario)
-    for asked, trace in performed("reference-py", [scenario]):
-        assert any(isinstance(event, t.Request) for event in trace)
-        assert judged(asked, trace) == []
-
-
 @pytest.mark.parametrize("subject", SUBJECTS)
 def test_findings_do_not_depend_on_variables_that_are_bound_anew(subject: str) -> None:
     choosing = random.Random(subject)

@@ -1,0 +1,31 @@
+"""Conformant frameworks that once failed in a scenario of 10.2 to 10.5 fail there no more."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.mutants.python.subjects import PACED, REQUESTS, SHARED, TIMED, TRIGGERED, variants_of
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Driver
+from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.statement.files import stated_by
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
+
+ONCE_FAILED = msgspec.yaml.decode((Path(__file__).parent / "once_failed.yaml").read_bytes())
+VARIANTS = variants_of((*TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
+
+
+@pytest.mark.parametrize("case", ONCE_FAILED, ids=lambda case: case["name"])
+def test_conformant_framework_fails_no_more(case: dict[str, Any]) -> None:
+    scenario = msgspec.convert({"components": case["components"], "steps": case["steps"]}, Scenario)
+    readings = stated_by(None, "reference-py").readings | VARIANTS[case["subject"]].readings
+    with Driver(locate(f"ucm_cts.adapters.mutants.python:{case['subject']}", virtual_time=True), 1) as driver:
+        (answer,) = driver.run([(case["name"], scenario)])
+    assert answer.incident is None
+    assert Monitor(load_life_cycle(), Ics(dict(readings))).judge(answer.disguised, answer.trace).findings == []
