@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections import defaultdict
 from collections.abc import Callable, Iterable
+from itertools import chain
 from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
@@ -183,6 +184,7 @@ class _TraceReader:
         calls = thread.calls if thread is not None else None
         if calls and type(step) is s.Invoke:
             call = calls.pop()
+            self.claim_entry(call, event.value if isinstance(event, t.Return) else None, isinstance(event, t.Raise))
             self.check("answered", call, event)
             self.come_back(call, event.n)
 
@@ -321,6 +323,7 @@ class _TraceReader:
         """The call of another thread that seems to have led to this entry, else this thread's ``own``. No call of a method leads there."""
         newest = [calls[-1] for calls in self.calls if calls]
         waiting = [call for call in newest if call.value == event.value and not call.is_of_method]
+        waiting = [call for call in waiting if not call.entries] or waiting
         return waiting[-1] if waiting else own
 
     def request(self, event: t.Request) -> None:
@@ -346,12 +349,19 @@ class _TraceReader:
             return
         call = calls.pop()
         if call.request is None or call.request.method is None:
+            self.claim_entry(call, event.value, event.raised)
             self.check("replied", call, event)
         else:
             completed = self.interactions.reply(event)
             if completed is not None:
                 self.check("completed", completed)
         self.come_back(call, event.n)
+
+    def claim_entry(self, call: BusinessCall, value: object, raised: bool) -> None:
+        """If ``call`` comes back and seems to have entered no body, its entry may have been taken for that of a call like it."""
+        claimed = call.claim(chain(*self.calls), value, raised) if not call.entries else None
+        if claimed is not None:
+            self.executions.claimed(call, *claimed)
 
     def come_back(self, call: BusinessCall, end: int) -> None:
         waited = self.executions.answered(call)

@@ -7,7 +7,7 @@ for and found waiting, while the execution was held at a gate that had not been 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
@@ -88,6 +88,26 @@ class BusinessCall(Changing):
         while caller is not None:
             yield caller
             caller = caller.call.caller if caller.call is not None else None
+
+    def is_like(self, other: BusinessCall) -> bool:
+        """Does it call ``exchange`` of the same port elements with the same value, so that an entry does not show which one led to it?"""
+        if other is self or other.value != self.value or self.is_of_method or other.is_of_method:
+            return False
+        if self.step is not None:
+            return other.step is not None and (other.callee, other.port) == (self.callee, self.port)
+        return other.step is None and self.behind is not None and other.behind == self.behind
+
+    def claim(self, waiting: Iterable[BusinessCall], value: object, raised: bool) -> tuple[BusinessCall, Enter] | None:
+        """It comes back with ``value``, or with an exception, and seems to have entered no body: if a call like it, which is still
+        ``waiting``, was taken for it at an entry that ended so, the entry is its own. Returns the other call and the entry.
+        """
+        for other in filter(self.is_like, waiting):
+            for enter, exit_ in other.entries:
+                if exit_ is not None and enter.n > self.n and (exit_.raised, exit_.value) == (raised, value):
+                    other.entries.remove((enter, exit_))
+                    self.entries.append((enter, exit_))
+                    return other, enter
+        return None
 
     def close(self, end: Exit) -> None:
         """The innermost entry of that body came to its end."""
@@ -171,6 +191,14 @@ class Executions:
             self.pending.remove(call)
         waited = self.waiting.pop(call.n, None)
         return waited[1] if waited is not None else None
+
+    def claimed(self, call: BusinessCall, other: BusinessCall, enter: Enter) -> None:
+        """``call`` has claimed the entry ``enter`` from ``other``."""
+        if not other.entries:
+            self.pending.append(other)
+        for execution in self.past[enter.body]:
+            if execution.enter is enter:
+                execution.call = call
 
     def lost(self) -> list[tuple[BusinessCall, Execution]]:
         """Calls that have no answer although the execution they waited for is over. Each is returned once."""

@@ -30,6 +30,9 @@ class NoExecutions(Executions):
         """Nothing is recorded."""
         return None
 
+    def claimed(self, call: BusinessCall, other: BusinessCall, enter: t.Enter) -> None:
+        """Nothing is recorded."""
+
     def innermost(self, thread: int) -> Execution | None:
         """Nothing is recorded."""
         return None

@@ -160,6 +160,8 @@ def missed_runs(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if k + 1 >= len(phase.executions) or reading not in ("queued", "skipped", "merged"):
             continue
         held, following = phase.executions[k], phase.executions[k + 1 :]
+        lasting = next((n for n, run in enumerate(following, 1) if run.left - run.t >= phase.period), None)
+        following = following[:lasting]  # it keeps the others out anew
         missed = (held.left - held.t) // phase.period
         late = held.left + lateness(runtime)
         at_once = sum(run.t <= late for run in following)

@@ -24,8 +24,12 @@ VARIANTS = variants_of((*TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
 @pytest.mark.parametrize("case", ONCE_FAILED, ids=lambda case: case["name"])
 def test_conformant_framework_fails_no_more(case: dict[str, Any]) -> None:
     scenario = msgspec.convert({"components": case["components"], "steps": case["steps"]}, Scenario)
-    readings = stated_by(None, "reference-py").readings | VARIANTS[case["subject"]].readings
-    with Driver(locate(f"ucm_cts.adapters.mutants.python:{case['subject']}", virtual_time=True), 1) as driver:
+    name = case["subject"]
+    readings = dict(stated_by(None, "reference-py").readings) | dict(
+        VARIANTS[name].readings if name in VARIANTS else {}
+    )
+    subject = f"ucm_cts.adapters.mutants.python:{name}" if name in VARIANTS else name
+    with Driver(locate(subject, virtual_time=True), 1) as driver:
         (answer,) = driver.run([(case["name"], scenario)])
     assert answer.incident is None
-    assert Monitor(load_life_cycle(), Ics(dict(readings))).judge(answer.disguised, answer.trace).findings == []
+    assert Monitor(load_life_cycle(), Ics(readings)).judge(answer.disguised, answer.trace).findings == []
