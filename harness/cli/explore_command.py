@@ -50,6 +50,7 @@ FOR_INCIDENTS = 0.5
 @options.ics_option
 @options.in_process_option
 @options.virtual_time_option
+@options.jobs_option
 @options.no_sandbox_option
 @options.timeout_option
 def explore(
@@ -62,6 +63,7 @@ def explore(
     ics: Path | None,
     in_process: bool,
     virtual_time: bool,
+    jobs: int | None,
     no_sandbox: bool,
     timeout: float,
 ) -> None:
@@ -79,7 +81,7 @@ def explore(
     with (
         ends_like_interrupts() as interrupts,
         report_folder(out, [FILE]) as folder,
-        Driver(endpoint, drawn, limits) as driver,
+        Driver(endpoint, drawn, limits, jobs or statement.hosts_at_once) as driver,
     ):
         identity = driver.identity
         check_subject(statement, identity, profile)

@@ -31,7 +31,7 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import asked_by, select
 from ucm_cts.harness.report.write import keep_report, report_folder
 from ucm_cts.harness.results.known_failures import KnownFailure, known_today
-from ucm_cts.harness.results.statement import HOSTS_AT_ONCE, Statement
+from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import ended_early, of_selection
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
@@ -193,7 +193,7 @@ class _Series:
         which = f"run {number} of {of}"
         try:
             keeper = self._plan.keeper
-            jobs = self._wanted.jobs or int(self._plan.statement.ixit[HOSTS_AT_ONCE])
+            jobs = self._wanted.jobs or self._plan.statement.hosts_at_once
             make = keeper.driver if keeper is not None else functools.partial(Driver, jobs=jobs)
             with make(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
                 with self._interrupts.permitted():

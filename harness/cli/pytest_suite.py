@@ -108,7 +108,7 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
                 sandbox=not config.getoption("--iut-no-sandbox"),
                 hidden=[out] if out else [],
             )
-            driver = cleanup.enter_context(Driver(endpoint, drawn, limits))
+            driver = cleanup.enter_context(Driver(endpoint, drawn, limits, statement.hosts_at_once))
             _ = driver.disguise  # starts a host, which identifies the adapter
             profile = config.getoption("--iut-profile")
             check_subject(statement, driver.identity, profile)

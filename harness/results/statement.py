@@ -108,6 +108,11 @@ class Statement(Value, frozen=True):
         return Ics(self.readings, {name: value for name, value in self.ixit.items() if name in TOLERANCES})
 
     @property
+    def hosts_at_once(self) -> int:
+        """How many hosts of the product may work at once."""
+        return int(self.ixit[HOSTS_AT_ONCE])
+
+    @property
     def model_paths(self) -> tuple[Path, ...]:
         """Where the framework's own core models are."""
         return tuple(Path(self.folder) / model for model in self.models)
