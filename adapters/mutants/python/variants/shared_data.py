@@ -300,5 +300,6 @@ class forgets_all_at_a_stop(Link):
 
     def abandon(self, member: Member) -> None:
         super().abandon(member)
-        self.current = None
-        self.views.clear()
+        if any(end.member is member for end in self.ends):
+            self.current = None
+            self.views.clear()
