@@ -80,13 +80,16 @@ class _Targets:
 
 @dataclass
 class _Reading:
-    """A trace as far as it has been read: what each thread is doing, and which bodies are operational."""
+    """A trace as far as it has been read: what each thread is doing, which bodies are operational, and which links are ``broken``: a call
+    of a body may wait until they are mended.
+    """
 
     scenario: Scenario
     threads: dict[int, list[t.Event]] = field(default_factory=dict)
     calls: dict[int, _OpenCall] = field(default_factory=dict)
     ready: dict[tuple[str, int], bool] = field(default_factory=dict)
     targets: _Targets = field(default_factory=_Targets)
+    broken: set[str] = field(default_factory=set)
 
     def take(self, event: t.Event) -> None:
         """Read the next event."""
@@ -107,7 +110,10 @@ class _Reading:
                 if isinstance(event, t.Exit) and event.hook == "on_startup":
                     self.ready[event.body] = not event.raised
                 if isinstance(event, t.Return):
-                    self.targets.note(self.scenario.steps[event.step])
+                    step = self.scenario.steps[event.step]
+                    self.targets.note(step)
+                    if isinstance(step, s.Mend):
+                        self.broken.discard(step.link)
             case t.Skip() if stack and isinstance(stack[-1], t.Call) and stack[-1].step == event.step:
                 self.calls.pop(stack.pop().n, None)
             case t.Create():
@@ -125,9 +131,13 @@ class _Reading:
         elif step.undoes:
             for call in self.calls.values():
                 call.ended = True
+        if isinstance(step, s.Break):
+            self.broken.add(step.link)
 
     def _add_call(self, event: t.Call | t.Request, call: s.Invoke | t.Request) -> None:
-        self.calls[event.n] = _OpenCall(event, call, self._all_ready() and self.targets.are_there(call))
+        may_wait = bool(self.broken) and isinstance(call, t.Request)
+        is_possible = self._all_ready() and self.targets.are_there(call) and not may_wait
+        self.calls[event.n] = _OpenCall(event, call, is_possible)
 
     def _note_phase(self, event: t.Enter) -> None:
         if event.hook == "on_shutdown":

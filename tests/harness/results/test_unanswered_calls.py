@@ -103,3 +103,19 @@ def test_a_call_between_components_whose_provider_was_removed_is_open(is_removed
     tape.put(t.Enter, component="client", instance=1, hook="exchange", port="in_go", value=1)
     tape.put(t.Request, component="client", instance=1, port="out_api", value=1)
     assert (hang(steps, tape) is None) == is_removed
+
+
+@pytest.mark.parametrize(
+    ("further", "is_open"), [((s.Break("line"),), True), ((s.Break("line"), s.Mend("line")), False)]
+)
+def test_a_call_while_something_is_broken_may_wait(further: tuple[s.Step, ...], is_open: bool) -> None:
+    steps = (*STEPS[:5], s.GetPortElement("client", "in_go", "go"), *further, s.Invoke("go", 1))
+    tape = Tape()
+    begin(tape)
+    tape.step(5, "opaque")
+    for step in range(6, len(steps) - 1):
+        tape.step(step, None)
+    tape.put(t.Call, step=len(steps) - 1)
+    tape.put(t.Enter, component="client", instance=1, hook="exchange", port="in_go", value=1)
+    tape.put(t.Request, component="client", instance=1, port="out_api", value=1)
+    assert (hang(steps, tape) is None) == is_open
