@@ -1,6 +1,6 @@
 """Business calls that never came back: which call a framework has lost, and which requirement that breaks.
 
-A call counts if all bodies were operational when it was made and the body called was not removed before, if it is the framework's turn (no body is still inside on
+A call counts if all bodies were operational when it was made, the body called was not removed before and nothing was broken, if it is the framework's turn (no body is still inside on
 account of it), and if nothing that may end it was called before patience had run out once.
 """
 
@@ -135,9 +135,12 @@ class _Reading:
             self.broken.add(step.link)
 
     def _add_call(self, event: t.Call | t.Request, call: s.Invoke | t.Request) -> None:
+        self.calls[event.n] = _OpenCall(event, call, self._is_possible(call))
+
+    def _is_possible(self, call: s.Invoke | t.Request) -> bool:
+        """Is there nothing now that it may wait for?"""
         may_wait = bool(self.broken) and isinstance(call, t.Request)
-        is_possible = self._all_ready() and self.targets.are_there(call) and not may_wait
-        self.calls[event.n] = _OpenCall(event, call, is_possible)
+        return self._all_ready() and self.targets.are_there(call) and not may_wait
 
     def _note_phase(self, event: t.Enter) -> None:
         if event.hook == "on_shutdown":
@@ -161,7 +164,7 @@ class _Reading:
 
     def is_left_open(self, call: _OpenCall) -> bool:
         """Was the call impossible when it was made, and is it still?"""
-        return not call.possible and not (self._all_ready() and self.targets.are_there(call.call))
+        return not call.possible and not self._is_possible(call.call)
 
     def tops(self) -> Iterator[t.Event]:
         """What each thread is doing last."""
@@ -173,7 +176,9 @@ class _Reading:
 
 
 def is_left_open(execution: Execution) -> bool:
-    """Is all that is under way at the end of the trace calls that the text leaves open: of what is removed, or not all operational yet?"""
+    """Is all that is under way at the end of the trace calls that the text leaves open: of what is removed, or not all operational yet, or
+    through what is broken?
+    """
     reading = _Reading(execution.scenario)
     for event in execution.trace:
         reading.take(event)

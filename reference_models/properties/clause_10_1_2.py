@@ -187,6 +187,8 @@ def _failed_request(check: Property, runtime: ObservedRuntime, call: MethodCall)
     reply = call.reply
     assert reply is not None
     if reply.failed:
+        if not _is_broken_only(call):
+            return
         taken, reading = (yield from takes(runtime, "service-failure", "raise")), "raise"
     elif any(d.exit is not None and d.exit.results == reply.results for d in call.deliveries):
         taken, reading = _is_still_broken(call) or (yield from takes(runtime, "service-failure", "wait")), "wait"
@@ -200,6 +202,14 @@ def _failed_request(check: Property, runtime: ObservedRuntime, call: MethodCall)
         declared = runtime.ics.reading("service-failure")
         expected = f"ends as declared of calls whose connection is broken: {declared}"
         yield _violate(check, call, expected, reading)
+
+
+def _is_broken_only(call: MethodCall) -> bool:
+    """Is its connection still broken, and can nothing else be why it was not carried out?"""
+    servers = call.link.live("server") if call.link is not None else []
+    is_served = bool(servers) and all(end.member.serving for end in servers)
+    is_in_phase = call.caller is not None and call.caller.serving
+    return _is_still_broken(call) and not call.deliveries and is_served and is_in_phase
 
 
 @property_at("completed", _INTERNAL)

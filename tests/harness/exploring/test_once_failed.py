@@ -1,4 +1,4 @@
-"""Conformant frameworks that once failed in a scenario of 10.2 to 10.5 fail there no more."""
+"""Conformant frameworks that once failed in a scenario with connectors, or of 10.2 to 10.5, fail there no more."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import msgspec
 import pytest
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.mutants.python.subjects import PACED, REQUESTS, SHARED, TIMED, TRIGGERED, variants_of
+from ucm_cts.adapters.mutants.python.subjects import CORE, PACED, REQUESTS, SHARED, TIMED, TRIGGERED, variants_of
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
@@ -18,12 +18,13 @@ from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
 ONCE_FAILED = msgspec.yaml.decode((Path(__file__).parent / "once_failed.yaml").read_bytes())
-VARIANTS = variants_of((*TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
+FIELDS = ("interfaces", "components", "steps")
+VARIANTS = variants_of((*CORE, *TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
 
 
 @pytest.mark.parametrize("case", ONCE_FAILED, ids=lambda case: case["name"])
 def test_conformant_framework_fails_no_more(case: dict[str, Any]) -> None:
-    scenario = msgspec.convert({"components": case["components"], "steps": case["steps"]}, Scenario)
+    scenario = msgspec.convert({field: case[field] for field in FIELDS if field in case}, Scenario)
     name = case["subject"]
     readings = dict(stated_by(None, "reference-py").readings) | dict(
         VARIANTS[name].readings if name in VARIANTS else {}

@@ -7,7 +7,7 @@ from made_up_run import COMPONENTS, STEPS, Tape, begin
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
-from ucm_cts.harness.results.unanswered_calls import finding_of_lost_call
+from ucm_cts.harness.results.unanswered_calls import finding_of_lost_call, is_left_open
 from ucm_cts.harness.results.values import Execution, Incident
 from ucm_cts.reference_models.findings import Finding
 
@@ -119,3 +119,4 @@ def test_a_call_while_something_is_broken_may_wait(further: tuple[s.Step, ...], 
     tape.put(t.Enter, component="client", instance=1, hook="exchange", port="in_go", value=1)
     tape.put(t.Request, component="client", instance=1, port="out_api", value=1)
     assert (hang(steps, tape) is None) == is_open
+    assert is_left_open(Execution("hang", s.Scenario(COMPONENTS, steps), tape.trace())) == is_open
