@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Call, Enter, Event, Raise, Return
 from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.model.designation import designation, error_name
+from ucm_cts.reference_models.model.independent_steps import succeed_in_any_order
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -59,7 +60,7 @@ def operations_at_once(check: Property, runtime: ObservedRuntime, trace: Sequenc
     seen = _observe(runtime.scenario, trace)
     refused = min((event.n for event in trace if isinstance(event, Raise)), default=math.inf)
     begun = [runtime.scenario.steps[event.step] for event in trace if isinstance(event, Call) and event.n < refused]
-    if not _succeed_in_any_order(runtime.scenario, begun):
+    if not succeed_in_any_order(runtime.scenario, begun):
         return  # some operations overlap because another one takes long
     if any(done.end is None for done in seen.done):
         return  # what hangs is reported by the host
@@ -82,86 +83,6 @@ def operations_at_once(check: Property, runtime: ObservedRuntime, trace: Sequenc
                 at=tuple(d.begin.n for d in seen.done if s.operation(d.step) == operation)[:2],
                 requirement=requirement,
             )
-
-
-def _succeed_in_any_order(scenario: s.Scenario, steps: Sequence[s.Step]) -> bool:
-    """Do ``steps`` only add, connect and remove plain components, and none twice or of another thread, so that each succeeds
-    whatever the other threads do?
-    """
-    actions = (action for one in scenario.components.values() for plan in one.plan.values() for action in plan)
-    if scenario.interfaces or not all(isinstance(action, s.HoldAtGate) for action in actions):
-        return False
-    world = _World(scenario.components)
-    return all(world.take(step) for step in steps)
-
-
-@dataclass
-class _World:
-    """What the steps so far have made, each with the thread that made it.
-
-    ``added``: the components; ``used``: those that steps have looked up, or connected.
-    ``references``, ``links``: what port elements and connections were bound to; ``connected``: the port elements that are connected.
-    """
-
-    declared: Mapping[str, s.Declaration]
-    homes: set[str] = field(default_factory=lambda: {s.MANAGER})
-    added: dict[str, tuple[s.Declaration, str | None]] = field(default_factory=dict)
-    used: set[str] = field(default_factory=set)
-    references: dict[str, str | None] = field(default_factory=dict)
-    links: dict[str, tuple[tuple[str, str], str | None]] = field(default_factory=dict)
-    connected: set[tuple[str, str]] = field(default_factory=set)
-
-    def take(self, step: s.Step) -> bool:
-        """Does ``step`` succeed, whatever other threads do? It is done then."""
-        if not isinstance(step, s.AddComponent | s.RemoveComponent | s.GetPortElement | s.Connect | s.Disconnect):
-            return isinstance(step, s.GetComponents) or self._is_new_home(step)
-        if step.container not in self.homes:
-            return False
-        match step:
-            case s.AddComponent():
-                name, declaration = step.bind or step.component, self.declared.get(step.component)
-                if declaration is None or name in self.added or step.attributes:
-                    return False
-                self.added[name] = declaration, step.thread
-            case s.RemoveComponent():
-                return step.id not in self.used and self._declaration(step.id, step.thread, removes=True) is not None
-            case s.GetPortElement():
-                declaration = self._declaration(step.id, step.thread)
-                if declaration is None or step.port not in declaration.provides or step.bind in self.references:
-                    return False
-                self.references[step.bind] = step.thread
-            case s.Connect():
-                declaration, end = self._declaration(step.id, step.thread), (step.id, step.port)
-                is_known = step.to in self.references and self.references[step.to] in (None, step.thread)
-                if declaration is None or step.port not in declaration.requires or not is_known:
-                    return False
-                if step.bind in self.links or end in self.connected:
-                    return False
-                self.links[step.bind] = end, step.thread
-                self.connected.add(end)
-            case s.Disconnect():
-                end, thread = self.links.get(step.connection, (("", ""), None))
-                if end not in self.connected or thread != step.thread:
-                    return False
-                self.connected.remove(end)
-        return True
-
-    def _is_new_home(self, step: s.Step) -> bool:
-        if not isinstance(step, s.CreateContainer) or step.bind in self.homes or step.thread is not None:
-            return False
-        self.homes.add(step.bind)
-        return True
-
-    def _declaration(self, name: str, thread: str | None, removes: bool = False) -> s.Declaration | None:
-        """The component ``name``, if it is certainly there when ``thread`` asks; it is gone afterwards if that ``removes`` it."""
-        declaration, maker = self.added.get(name, (None, None))
-        if declaration is None or maker not in (None, thread):
-            return None
-        if removes:
-            del self.added[name]
-        else:
-            self.used.add(name)
-        return declaration
 
 
 def _observe(scenario: s.Scenario, trace: Sequence[Event]) -> _Observed:

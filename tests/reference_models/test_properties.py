@@ -13,7 +13,7 @@ import pytest
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
-from ucm_cts.adapters.mutants.python.registry import CONTAINER, POLICIES, mutants_of
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, POLICIES, mutants_of
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
