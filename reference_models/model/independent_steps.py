@@ -23,16 +23,16 @@ def succeed_in_any_order(scenario: s.Scenario, steps: Sequence[s.Step]) -> bool:
 class _World:
     """What the steps so far have made, each with the thread that made it.
 
-    ``added``: the components; ``used``: those that steps have looked up, or connected.
+    ``homes``: the containers; ``added``: the components, each with its container; ``used``: those that steps have looked up, or connected.
     ``references``, ``links``: what port elements and connections were bound to; ``connected``: the port elements that are connected.
     """
 
     declared: Mapping[str, s.Declaration]
     homes: set[str] = field(default_factory=lambda: {s.MANAGER})
-    added: dict[str, tuple[s.Declaration, str | None]] = field(default_factory=dict)
+    added: dict[str, tuple[s.Declaration, str, str | None]] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
     references: dict[str, str | None] = field(default_factory=dict)
-    links: dict[str, tuple[tuple[str, str], str | None]] = field(default_factory=dict)
+    links: dict[str, tuple[tuple[str, str], str, str | None]] = field(default_factory=dict)
     connected: set[tuple[str, str]] = field(default_factory=set)
 
     def take(self, step: s.Step) -> bool:
@@ -46,26 +46,30 @@ class _World:
                 name, declaration = step.bind or step.component, self.declared.get(step.component)
                 if declaration is None or name in self.added or step.attributes:
                     return False
-                self.added[name] = declaration, step.thread
+                self.added[name] = declaration, step.container, step.thread
             case s.RemoveComponent():
-                return step.id not in self.used and self._declaration(step.id, step.thread, removes=True) is not None
+                if step.id in self.used or self._declaration(step) is None:
+                    return False
+                del self.added[step.id]
             case s.GetPortElement():
-                declaration = self._declaration(step.id, step.thread)
+                declaration = self._declaration(step)
                 if declaration is None or step.port not in declaration.provides or step.bind in self.references:
                     return False
+                self.used.add(step.id)
                 self.references[step.bind] = step.thread
             case s.Connect():
-                declaration, end = self._declaration(step.id, step.thread), (step.id, step.port)
+                declaration, end = self._declaration(step), (step.id, step.port)
                 is_known = step.to in self.references and self.references[step.to] in (None, step.thread)
                 if declaration is None or step.port not in declaration.requires or not is_known:
                     return False
                 if step.bind in self.links or end in self.connected:
                     return False
-                self.links[step.bind] = end, step.thread
+                self.links[step.bind] = end, step.container, step.thread
+                self.used.add(step.id)
                 self.connected.add(end)
             case s.Disconnect():
-                end, thread = self.links.get(step.connection, (("", ""), None))
-                if end not in self.connected or thread != step.thread:
+                end, *made = self.links.get(step.connection, (("", ""), "", None))
+                if end not in self.connected or made != [step.container, step.thread]:
                     return False
                 self.connected.remove(end)
         return True
@@ -76,13 +80,7 @@ class _World:
         self.homes.add(step.bind)
         return True
 
-    def _declaration(self, name: str, thread: str | None, removes: bool = False) -> s.Declaration | None:
-        """The component ``name``, if it is certainly there when ``thread`` asks; it is gone afterwards if that ``removes`` it."""
-        declaration, maker = self.added.get(name, (None, None))
-        if declaration is None or maker not in (None, thread):
-            return None
-        if removes:
-            del self.added[name]
-        else:
-            self.used.add(name)
-        return declaration
+    def _declaration(self, step: s.RemoveComponent | s.GetPortElement | s.Connect) -> s.Declaration | None:
+        """What is declared of the component that ``step`` is about, if that is certainly in the container when its thread asks."""
+        declaration, home, maker = self.added.get(step.id, (None, "", None))
+        return declaration if home == step.container and maker in (None, step.thread) else None
