@@ -72,8 +72,8 @@ def _take_call(runtime: ObservedRuntime, phase: TimerPhase, known: dict[int, Tim
     number = arguments[0] if arguments else None
     if not isinstance(number, int):
         return
-    before: Timer | None = known.get(number)
-    earlier: Timer | None = None
+    before = known.get(number)
+    earlier = None
     if before is not None and before.phase is not phase:
         before, earlier = None, before
     if call.request.method == s.CANCEL_TIMER and before is not None:

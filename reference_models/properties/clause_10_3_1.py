@@ -253,7 +253,7 @@ def rounds_tell(check: Property, runtime: ObservedRuntime) -> Conclusions:
             seen.append((phase, call, timer))
             explained = {reading for reading, value in _readings_of_rounds(runtime, timer, call) if value == told}
             declared = runtime.ics.reading("rounds-attribute")
-            if not fitting & explained or declared not in {"observed"} | explained:
+            if not fitting & explained or declared not in ("observed", *explained):
                 yield check.fail(
                     "otherwise",
                     expected=f"rounds of {timer.label} of '{phase.member.lane}' tells the number of triggers that was asked for, done or left"

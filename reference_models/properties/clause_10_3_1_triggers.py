@@ -246,7 +246,7 @@ def delta_time_tells(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     yield from takes(runtime, "delta-time", *fitting)
             elif told is not None or callback.enter.wrong:
                 continue
-            if told is None or not common or declared not in {"observed", *fitting}:
+            if told is None or not common or declared not in ("observed", *fitting):
                 yield check.fail(
                     "no time" if told is None else "otherwise",
                     expected=f"triggers of '{phase.member.lane}' tell a time difference"

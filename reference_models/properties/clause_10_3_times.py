@@ -179,7 +179,7 @@ def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 (value,) = fitting
                 if (yield from takes(runtime, "timer-overrun", value)):
                     continue
-            elif not fitting or declared in {*fitting, "observed"}:
+            elif not fitting or declared in (*fitting, "observed"):
                 continue
             yield check.fail(
                 "overrun",
@@ -239,7 +239,7 @@ def callbacks_tell_a_time(check: Property, runtime: ObservedRuntime) -> Conclusi
                     if (yield from takes(runtime, "callback-time", *fitting)):
                         yield check.kept()
                         continue
-                elif fitting and declared in {*fitting, "observed"}:
+                elif fitting and declared in (*fitting, "observed"):
                     yield check.kept()
                     continue
                 flag = "ABSOLUTE_TIME" if told.is_absolute else "RELATIVE_TIME"
