@@ -62,6 +62,7 @@ class Subject:
     ``adapter``: its endpoint.
     ``reference``: the reference framework, whose statement it has, but for ``readings``.
     ``model``: endpoint of the framework that it was made from.
+    ``model_readings``: the readings that are declared of that one, where they are not the reference framework's.
     ``clauses``: beginnings of the clauses whose purposes are run.
     ``breaks``: the requirements that it must fail; none for a conformant variant.
     ``also``: the requirements that it may fail too.
@@ -79,6 +80,7 @@ class Subject:
     breaks: tuple[str, ...] = ()
     also: tuple[str, ...] = ()
     readings: Mapping[str, str] = field(default_factory=dict)
+    model_readings: Mapping[str, str] = field(default_factory=dict)
     is_native: bool = False
     is_rare: bool = False
 
@@ -112,7 +114,8 @@ def all_mutants() -> dict[str, Subject]:
 def _subject(mutant: Mutant) -> Subject:
     reference = "reference-py"
     model = f"{_DERIVED}:{mutant.made_from}" if mutant.made_from else reference
-    own = mutant.clauses, mutant.requirements, mutant.also, mutant.readings
+    of_model = VARIANTS[mutant.made_from].readings if mutant.made_from else {}
+    own = mutant.clauses, mutant.requirements, mutant.also, mutant.readings, of_model
     return Subject(mutant.name, mutant.lie, f"{_DERIVED}:{mutant.name}", reference, model, *own)
 
 
@@ -120,7 +123,9 @@ def native_subject(mutant: NativeMutant, command: Path = COMMAND) -> Subject:
     """The native ``mutant`` that is in the executable ``command``."""
     reference = "reference-cpp"
     own = mutant.clauses, mutant.requirements, mutant.also, mutant.readings
-    return Subject(mutant.name, mutant.lie, str(command), reference, reference, *own, True, mutant.is_rare)
+    return Subject(
+        mutant.name, mutant.lie, str(command), reference, reference, *own, is_native=True, is_rare=mutant.is_rare
+    )
 
 
 def all_variants() -> dict[str, Subject]:
@@ -260,6 +265,12 @@ def _statement(subject: Subject) -> Statement:
     return msgspec.structs.replace(usual, readings=readings, ixit=ixit)
 
 
+def _statement_of_model(subject: Subject) -> Statement:
+    """What is stated of the framework that ``subject`` was made from."""
+    usual = stated_by(None, subject.reference)
+    return msgspec.structs.replace(usual, readings={**usual.readings, **subject.model_readings})
+
+
 def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_at: int) -> Kill:
     shown = finding.expected, finding.observed, finding.events
     return Kill(finding.requirement, execution.name, finding.rule, *shown, names_the_place, looked_at)
@@ -279,8 +290,8 @@ def _names_the_place(subject: Subject, ran: _Trial, finding: Finding, execution:
     if not subject.readings or not (parted.is_of_order or is_timed(finding)):
         return False
     # it lies in its statement: under its model's the finding must vanish
-    usual = Monitor(load_life_cycle(), stated_by(None, subject.reference).ics)
-    found = usual.judge(execution.scenario, execution.trace).findings
+    right_monitor = Monitor(load_life_cycle(), _statement_of_model(subject).ics)
+    found = right_monitor.judge(execution.scenario, execution.trace).findings
     return all(other.requirement != finding.requirement for other in found)
 
 
