@@ -16,7 +16,8 @@ from ucm_cts.harness.campaigns.units import GeneratedTrial, PlannedRun, Trial
 from ucm_cts.harness.certificates.subjects import subjects_of
 from ucm_cts.harness.certificates.suite_build import bundled_digest, suite_digest
 from ucm_cts.harness.execution.driver import Limits
-from ucm_cts.harness.hosting.locate import HOW_TO_COMPILE, Endpoint, WrongUse, file_named, locate
+from ucm_cts.harness.hosting.compiled_parts import HOW_TO_COMPILE
+from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, file_named, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import select
 from ucm_cts.harness.results.statement import Statement

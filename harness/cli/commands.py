@@ -30,9 +30,10 @@ from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.cli.toolchain_command import ToolChainRun, certify_toolchain, profiles_of
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.execution.offers import LIMITS, offers_of
+from ucm_cts.harness.hosting.compiled_parts import HOW_TO_COMPILE
 from ucm_cts.harness.hosting.extras import need, remedy_for
 from ucm_cts.harness.hosting.hosts import HostUnavailable
-from ucm_cts.harness.hosting.locate import HOW_TO_COMPILE, WrongUse, locate
+from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.report.diagrams.sequence_text import finding_text, printed_text, replay_text
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean

@@ -139,7 +139,7 @@ in_process_option = click.option(
 virtual_time_option = click.option(
     "--virtual-time",
     is_flag=True,
-    help="Run a Python adapter in virtual time, in which waits take no time; a report says so.",
+    help="Run the product in virtual time, in which waits take no time; a report says so.",
 )
 jobs_option = click.option(
     "--jobs",

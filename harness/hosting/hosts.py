@@ -44,6 +44,7 @@ from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
 from ucm_cts.harness.hosting.remote_hosts import Connector
 from ucm_cts.harness.hosting.sandbox import GIVEN_UP, why_none
 from ucm_cts.harness.hosting.view import view_of
+from ucm_cts.harness.hosting.virtual_time import LIBRARY
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Incident, Isolation
 
@@ -398,8 +399,10 @@ def _opener(endpoint: Endpoint, memory: int) -> Opener:
         return Connector(endpoint)
     serving = "virtual_time" if endpoint.virtual_time else "host"
     module = "ucm_cts.adapters.sdk.python." + (serving if endpoint.kind == "python" else "spawner")
-    command = [sys.executable, "-X", "faulthandler", "-m", module, endpoint.target]
+    preloaded = [str(LIBRARY)] if endpoint.virtual_time and endpoint.kind == "executable" else []
+    options = [f"--preload={library}" for library in preloaded]
+    command = [sys.executable, "-X", "faulthandler", "-m", module, endpoint.target, *options]
     if not endpoint.sandbox or why_none():
         return TemplateProcess(command, endpoint.text)
-    needed = [endpoint.target] if os.path.isabs(endpoint.target) else []
+    needed = [endpoint.target, *preloaded] if os.path.isabs(endpoint.target) else []
     return TemplateProcess(command, endpoint.text, view_of(needed, hidden=endpoint.hidden, mebibytes=memory))

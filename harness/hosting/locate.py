@@ -20,7 +20,9 @@ from typing import Literal
 from urllib.parse import urlsplit
 
 from ucm_cts.adapters.sdk.python.loading import current_name
+from ucm_cts.harness.hosting.compiled_parts import COMPILED, HOW_TO_COMPILE
 from ucm_cts.harness.hosting.published_names import Meaning, NoMeaning, meaning_of
+from ucm_cts.harness.hosting.virtual_time import why_not
 
 GROUP = "ucm_cts.adapters"
 """The entry point group in which packages publish short names of adapters."""
@@ -32,12 +34,6 @@ FORMS = "a short name, package.module:Class, package.module, a path, tcp://HOST:
 
 LONGEST_SOCKET = 107
 """The bytes that the system takes for the path of a socket."""
-
-_COMPILED = Path(__file__).parents[2] / "adapters" / "bin"
-"""Where the compiled adapters of this installation are, if there was a compiler."""
-
-HOW_TO_COMPILE = "install a C++ compiler, cmake and nlohmann-json3-dev, then ucm-cts again, with UCM_CTS_COMPILED=1 to see what is missing"
-"""The remedy where compiled parts are missing."""
 
 EndpointKind = Literal["python", "executable", "tcp", "unix"]
 
@@ -57,7 +53,7 @@ class Endpoint:
     ``in_process``: load it into the harness process, for debuggers.
     ``sandbox``: start it in a sandbox, where there are sandboxes.
     ``hidden``: files and folders that it must not see there.
-    ``virtual_time``: serve it in virtual time, in which waits take no time; for Python adapters.
+    ``virtual_time``: serve it in virtual time, in which waits take no time; for Python adapters and executables.
     """
 
     text: str
@@ -100,8 +96,8 @@ def locate(
         raise WrongUse(
             f"'{text}' cannot run in the harness process: that takes a Python adapter or an extension module"
         )
-    if virtual_time and (in_process or endpoint.kind != "python" or os.sep in endpoint.target):
-        raise WrongUse(f"'{text}' cannot run in virtual time: that takes a Python adapter, in a process of its own")
+    if virtual_time and (problem := why_not(endpoint.kind, endpoint.target, in_process)):
+        raise WrongUse(f"'{text}' cannot run in virtual time: {problem}")
     places = tuple(map(str, hidden))
     return replace(
         endpoint, text=text, in_process=in_process, sandbox=sandbox, hidden=places, virtual_time=virtual_time
@@ -209,7 +205,7 @@ def _address(text: str) -> str:
 
 
 def _parse_path(text: str, path: Path) -> Endpoint:
-    if path.parent == _COMPILED and not os.path.isfile(path):
+    if path.parent == COMPILED and not os.path.isfile(path):
         raise WrongUse(f"'{path.name}' is a compiled part of ucm-cts, and this installation has none: {HOW_TO_COMPILE}")
     if not os.path.isfile(path):  # also of a name that is too long to ask for
         raise WrongUse(

@@ -398,12 +398,24 @@ def blameless(report: dict[str, Any]) -> set[str]:
     return {r["id"] for r in report["requirements"] if r["verdict"] == "fail"}
 
 
+@pytest.mark.native
+@pytest.mark.slow
+def test_virtual_time_of_executables(here: Path) -> None:
+    """Each requirement that the C++ reference framework keeps in real time it keeps in virtual time, and each arises there."""
+    (said,) = {c for c in commands("ucm-cts run") if "reference-cpp" in c and "--virtual-time" in c}
+    ran = ucm_cts(*said.split()[1:], "--explore", "0s", "--out", "out")
+    assert ran.status == 0, ran.out
+    report = report_of(here / "out")
+    assert {one["verdict"] for one in report["requirements"]} <= {"pass", "not applicable", "not testable"}
+    assert "virtual time" in report["warnings"][0]
+
+
 def test_python_guide_other_ways(here: Path) -> None:
     write_files("docs/adapter-python.md")
     write_files("docs/scenarios.md")
     (debugged,) = [c for c in commands("ucm-cts replay") if "my_adapter" in c]
     assert "no findings" in shell(debugged.replace("FILE", "example.yaml"))
-    (virtual,) = {c for c in commands("ucm-cts run") if "--virtual-time" in c}
+    (virtual,) = {c for c in commands("ucm-cts run") if "my_adapter" in c and "--virtual-time" in c}
     assert "no findings" in ucm_cts("replay", "example.yaml", "my_adapter:BeansAdapter", "--virtual-time").out
     alike = ("--seed", "1", "--explore", "0s")
     ucm_cts(*virtual.split()[1:], *alike, "--out", "virtual")

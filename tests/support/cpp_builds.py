@@ -188,6 +188,7 @@ class Builds:
             "cells": lambda: (NATIVE / "cells.cpp", [*STRICT, *asan]),
             "patchbay": lambda: (NATIVE / "patchbay.cpp", [*STRICT, *asan]),
             "links": lambda: (text(f'{framework}#include "{NATIVE / "lwucm_links.cpp"}"\n'), tsan),
+            "waits": lambda: (NATIVE / "waits.cpp", ["-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]),
             "power": lambda: (NATIVE / "stress_power.cpp", [*STRICT, "-O2"]),
             "beans": lambda: (BEANS / "beans_adapter.cpp", [*STRICT, "-I", str(BEANS)]),
         }[name]()

@@ -1,4 +1,4 @@
-"""A template for executable adapters: ``python -m ucm_cts.adapters.sdk.python.spawner PATH --control DESCRIPTOR``.
+"""A template for executable adapters: ``python -m ucm_cts.adapters.sdk.python.spawner PATH --control DESCRIPTOR [--preload LIBRARY]``.
 
 The harness itself starts nothing: this small process forks quickly, reports how hosts end, and takes them along when
 it or the harness ends, in every case.
@@ -20,8 +20,10 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("path")
     parser.add_argument("--control", type=int, required=True)
+    parser.add_argument("--preload", default="", help="a library that hosts load before all others")
     options = parser.parse_args()
     path: str = options.path
+    environment = {**os.environ, "LD_PRELOAD": options.preload} if options.preload else os.environ
 
     def become_host(source: int, target: int) -> NoReturn:
         os.dup2(source, 0)
@@ -29,7 +31,7 @@ def main() -> None:
         os.closerange(3, max(source, target) + 1)
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
         try:
-            os.execv(path, [path])
+            os.execve(path, [path], environment)
         except OSError as error:
             print(f"{path} cannot be run: {error.strerror}", file=sys.stderr, flush=True)
             os._exit(127)

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import os
+import struct
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
+from cpp_builds import Builds
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Paused, Timeout, Trace
 from ucm_cts.harness.execution.driver import Driver
+from ucm_cts.harness.hosting import virtual_time
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 
 HOUR = 3_600_000
@@ -44,9 +49,9 @@ def shown(text: str) -> str:
     return done.stdout.strip()
 
 
-def trace(*steps: s.Step, patience: int = 2000) -> Trace:
+def trace(adapter: str, *steps: s.Step, patience: int = 2000) -> Trace:
     asked = s.Scenario({"sink": s.Declaration(("in",))}, steps, patience)
-    with Driver(locate("reference-py", virtual_time=True), 1) as driver:
+    with Driver(locate(adapter, virtual_time=True), 1) as driver:
         (answer,) = driver.run([("one", asked)])
     assert answer.incident is None
     return answer.trace
@@ -56,17 +61,22 @@ def milliseconds(events: Trace) -> float:
     return (events[-1].t - events[0].t) / 1e6
 
 
-def test_an_hour_passes_at_once() -> None:
-    events = trace(s.AddComponent("sink"), s.Pause(HOUR), s.Start())
+ADAPTERS = pytest.mark.parametrize("adapter", ["reference-py", pytest.param("reference-cpp", marks=pytest.mark.native)])
+
+
+@ADAPTERS
+def test_an_hour_passes_at_once(adapter: str) -> None:
+    events = trace(adapter, s.AddComponent("sink"), s.Pause(HOUR), s.Start())
     pause = next(number for number, event in enumerate(events) if isinstance(event, Paused))
     assert HOUR <= milliseconds(events) < HOUR + 10
     assert HOUR <= milliseconds(events[pause - 1 : pause + 1]) < HOUR + 1
 
 
-def test_patience_runs_out_at_once() -> None:
-    events = trace(s.ReachGate("nowhere"), s.Start(), patience=HOUR)
+@ADAPTERS
+def test_patience_runs_out_at_once(adapter: str) -> None:
+    events = trace(adapter, s.ReachGate("nowhere"), s.Start(), patience=HOUR)
     assert isinstance(events[0], Timeout)
-    again = trace(s.Start(), s.ReachGate("nowhere"), patience=HOUR)
+    again = trace(adapter, s.Start(), s.ReachGate("nowhere"), patience=HOUR)
     assert HOUR <= milliseconds(again) < HOUR + 10
 
 
@@ -281,14 +291,76 @@ def test_waits_are_as_long_as_they_are_asked_to_be(text: str, printed: str) -> N
     assert shown(text) == printed
 
 
-@pytest.mark.parametrize("adapter", ["reference-cpp", "tcp://localhost:1"])
-def test_only_python_has_virtual_time(adapter: str) -> None:
-    with pytest.raises(
-        WrongUse, match=r"cannot run in virtual time: that takes a Python adapter, in a process of its own|compile"
-    ):
-        locate(adapter, virtual_time=True)
+def written(place: Path, content: bytes) -> str:
+    place.write_bytes(content)
+    place.chmod(0o755)
+    return str(place)
+
+
+def elf(machine: int, kind: int) -> bytes:
+    """The beginning of a 64-bit little-endian executable for ``machine``, with one segment of that ``kind``."""
+    identity = b"\x7fELF\x02\x01\x01".ljust(16, b"\0")
+    return identity + struct.pack("<HHIQQQIHHHHHHI", 2, machine, 1, 0, 64, 0, 0, 64, 56, 1, 0, 0, 0, kind).ljust(
+        112, b"\0"
+    )
+
+
+def test_a_program_is_in_virtual_time_only_if_it_loads_the_library(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library = tmp_path / "library.so"
+    monkeypatch.setattr(virtual_time, "LIBRARY", library)
+    native = written(tmp_path / "native", elf(62, 3))
+    with pytest.raises(WrongUse, match=r"virtual time: this installation has no library.so"):
+        locate(native, virtual_time=True)
+    library.write_bytes(elf(62, 1))
+    assert locate(native, virtual_time=True).virtual_time
+    for name, content in {
+        "static": elf(62, 1),
+        "of another machine": elf(183, 3),
+        "script": b"#!/bin/sh\n".ljust(200, b"#"),
+        "cut": elf(62, 3)[:64],
+        "empty": b"",
+    }.items():
+        with pytest.raises(WrongUse, match="or an executable for this machine that the system's loader loads"):
+            locate(written(tmp_path / name, content), virtual_time=True)
+
+
+def test_what_runs_elsewhere_is_not_in_virtual_time() -> None:
+    with pytest.raises(WrongUse, match="cannot run in virtual time: that takes a Python adapter, or an executable"):
+        locate("tcp://localhost:1", virtual_time=True)
 
 
 def test_not_in_the_harness_s_own_process() -> None:
     with pytest.raises(WrongUse, match="in a process of its own"):
         locate("reference-py", in_process=True, virtual_time=True)
+
+
+@pytest.mark.parametrize(
+    ("case", "printed"),
+    {
+        "sleep": "slept 3600.0",
+        "several clocks": "true 3600.0, true 3600.0",
+        "condition": "false 2.0, true 3.0",
+        "conditions of either clock": "true 4.0, true 8.0",
+        "timed mutex": "false 2.0, true 5.0",
+        "recursive mutex": "other 2.0",
+        "read-write lock": "true 2.0, all have read 3.0",
+        "semaphore": "false 4.0, posted 6.0",
+        "future": "false 2.0, 5 7.0",
+        "threads": "1 1.0, 2 2.0, 3 3.0",
+        "detached": "done 8.0",
+        "exits early": "joined 7.0",
+        "contention": "40000",
+        "polling": "seen 1.0",
+        "looping": "done 60.0",
+        "forked": "child 20.0, parent 1000.0",
+    }.items(),
+)
+def test_waits_of_native_programs_are_as_long_as_they_are_asked_to_be(builds: Builds, case: str, printed: str) -> None:
+    library = builds.reference.with_name(virtual_time.LIBRARY.name)
+    environment = {**os.environ, "LD_PRELOAD": str(library)}
+    done = subprocess.run(
+        [builds.program("waits"), case], env=environment, capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (", ".join(done.stdout.splitlines()), done.stderr) == (printed, "")

@@ -141,6 +141,7 @@ class Stress : public std::enable_shared_from_this<Stress> {
         Tally& tally = tallies_[number];
         ++arrived_;
         while (true) {
+            std::chrono::steady_clock::now();  // lets virtual time pass
             const Pace pace = stage_->stress.load(std::memory_order_relaxed);
             if (pace == Pace::strolling) {
                 pass_moments(any_below(400));

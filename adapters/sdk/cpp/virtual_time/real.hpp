@@ -1,0 +1,37 @@
+// The system's own functions, which this library hides.
+#ifndef UCM_CTS_VIRTUAL_TIME_REAL_HPP
+#define UCM_CTS_VIRTUAL_TIME_REAL_HPP
+
+#include <dlfcn.h>
+
+#include <atomic>
+
+namespace ucm_cts {
+namespace virtual_time {
+
+/// The function `name` of the libraries that come after this one. It is looked up when it is first called, which may be before
+/// any constructor has run.
+template <class Function>
+class Real {
+  public:
+    constexpr explicit Real(const char* name) : name_(name) {}
+
+    template <class... Given>
+    auto operator()(Given... given) {
+        Function* function = found_.load(std::memory_order_relaxed);
+        if (function == nullptr) {
+            function = reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name_));
+            found_.store(function, std::memory_order_relaxed);
+        }
+        return function(given...);
+    }
+
+  private:
+    const char* const name_;
+    std::atomic<Function*> found_{nullptr};
+};
+
+}  // namespace virtual_time
+}  // namespace ucm_cts
+
+#endif
