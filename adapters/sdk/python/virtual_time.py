@@ -23,7 +23,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 READING = 10_000
-"""Nanoseconds that one reading of a clock takes, so that a thread that waits by reading it comes to an end."""
+"""Nanoseconds that one reading of a clock takes, so that a thread that waits by reading it comes to an end; and to let another thread go on."""
 
 _ACQUIRING = 1_000
 """Nanoseconds that it takes to get a lock that is free, or to find it held."""
@@ -83,12 +83,12 @@ class VirtualTime:
             raise ValueError("sleep length must be non-negative")
         waiter, nanoseconds = _Waiter(), max(_in_nanoseconds(seconds), READING)
         with self.mutex:
-            self.park(waiter, nanoseconds)
+            self.park(waiter, self.now + nanoseconds)
 
-    def park(self, waiter: _Waiter, nanoseconds: int | None) -> None:
-        """The calling thread waits, for so long at most. It holds the mutex before and afterwards."""
-        if nanoseconds is not None:
-            heapq.heappush(self._moments, (self.now + nanoseconds, next(self._order), waiter))
+    def park(self, waiter: _Waiter, moment: int | None) -> None:
+        """The calling thread waits, until ``moment`` at most. It holds the mutex before and afterwards."""
+        if moment is not None:
+            heapq.heappush(self._moments, (moment, next(self._order), waiter))
             self._forget_what_is_over()
         self._running -= 1
         self._go_on()
@@ -146,7 +146,7 @@ class VirtualTime:
 
 
 class _Lock:
-    """As ``threading.Lock``; threads that wait get it in the order in which they came."""
+    """As ``threading.Lock``; threads that wait try again in the order in which they came, when it is released."""
 
     __slots__ = ("__weakref__", "_is_held", "_waiters")
 
@@ -160,27 +160,34 @@ class _Lock:
         if timeout < 0 and timeout != _FOREVER:
             raise ValueError("timeout value must be a non-negative number")
         nanoseconds = None if timeout == _FOREVER else _in_nanoseconds(timeout)
-        waiter = _Waiter() if self._is_held and blocking and nanoseconds != 0 else None  # this may start finalizers
+        may_wait = blocking and nanoseconds != 0
+        waiter = _Waiter() if self._is_held and may_wait else None  # this may start finalizers
+        moment: int | None = None
         while True:
             with TIME.mutex:
-                if not self._is_held or not blocking or nanoseconds == 0:
+                if not self._is_held or not may_wait:
                     is_free, self._is_held = not self._is_held, True
                     TIME.pass_by(_ACQUIRING)
                     return is_free
                 if waiter is not None:
+                    if nanoseconds is not None and moment is None:
+                        moment = TIME.now + nanoseconds
                     self._waiters.append(waiter)
-                    TIME.park(waiter, nanoseconds)
-                    return not waiter.is_late
+                    TIME.park(waiter, moment)
+                    if waiter.is_late:
+                        return False
             waiter = _Waiter()
 
     def release(self) -> None:
         with TIME.mutex:
             if not self._is_held:
                 raise RuntimeError("release unlocked lock")
+            self._is_held = False
+            if self._waiters:
+                TIME.pass_by(READING)
             while self._waiters:
                 if TIME.wake(self._waiters.popleft()):
                     return
-            self._is_held = False
 
     def locked(self) -> bool:
         return self._is_held
