@@ -187,14 +187,18 @@ class _Series:
         except (HostUnavailable, KeyboardInterrupt):
             return repeated(self.reports, lambda failed, seed: None)
 
+    @property
+    def _hosts_at_once(self) -> int:
+        """A run that is recorded has one, so that its answers can be taken in their order again."""
+        return 1 if self._plan.keeper is not None else self._wanted.jobs or self._plan.statement.hosts_at_once
+
     def _run_once(self) -> str:
         """Run the next one, if one is missing. Returns why the series is not to go on, empty if it is."""
         number, of = len(self.reports) + 1, self._wanted.repeat
         which = f"run {number} of {of}"
         try:
             keeper = self._plan.keeper
-            jobs = self._wanted.jobs or self._plan.statement.hosts_at_once
-            make = keeper.driver if keeper is not None else functools.partial(Driver, jobs=jobs)
+            make = keeper.driver if keeper is not None else functools.partial(Driver, jobs=self._hosts_at_once)
             with make(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
                 with self._interrupts.permitted():
                     identity = driver.identity
@@ -259,7 +263,8 @@ class _Series:
                 raise KeyboardInterrupt
 
         draw = (lambda: self._draw(campaign)) if self._explore.amount else None
-        carry_out(campaign, self._plan.purposes, draw, self._console, which, done, between)
+        hosts = 0 if self._plan.endpoint.virtual_time else self._hosts_at_once
+        carry_out(campaign, self._plan.purposes, draw, self._console, which, done, between, hosts)
 
     def _draw(self, campaign: Campaign) -> int:
         """Try failures that drawn scenarios showed before, then draw scenarios. Returns how many causes of failure they show.

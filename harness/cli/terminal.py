@@ -154,7 +154,8 @@ def progress_of(console: Output, *columns: ProgressColumn) -> Progress:
     """A progress bar with ``columns`` behind it, by default the number of finished ones, the time and what is left of it; it disappears at
     the end.
 
-    Off a terminal it is a line each ``LINE_EVERY`` seconds.
+    Off a terminal it is a line each ``LINE_EVERY`` seconds. The field ``far`` of a task says how far it is, where that is not how much
+    of it is completed.
     """
     behind = columns or (MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn())
     bar = Progress if console.is_terminal else _Lines
@@ -180,6 +181,7 @@ class _Lines(Progress):
         while not ended.wait(LINE_EVERY):
             for task in self.tasks:
                 of = f"{task.completed:.0f} of {task.total:.0f}, " if task.total else ""
+                of = f"{task.fields['far']}, " if "far" in task.fields else of
                 left = task.time_remaining
                 of += f"about {left:.0f} s more, " if left else ""
                 self.console.print(
