@@ -39,7 +39,7 @@ def carry_out(
         task = progress.add_task(
             f"{which}checking",
             total=sum(efforts.values()),
-            completed=sum(effort for purpose, effort in efforts.items() if purpose in done),
+            completed=sum(efforts[purpose.id] for purpose in purposes if purpose.id in done),
             far=f"{finished} of {number}",
         )
         failing = 0
