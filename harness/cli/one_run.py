@@ -12,7 +12,7 @@ from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.foreign import one_line
 
-_SECONDS_A_SCENARIO = 0.003
+_MILLISECONDS_A_SCENARIO = 3
 """What a scenario takes that does not wait, so that the time that is left can be estimated from what is done and what waits."""
 
 
@@ -61,7 +61,7 @@ def carry_out(
                 pass
 
 
-def _effort(purpose: TestPurpose, hosts: int) -> float:
-    """About how many seconds ``purpose`` takes; only the proportions count."""
-    waiting = sum(duration(step)[0] for _, scenario in purpose.scenarios for step in scenario.steps) / 1000
-    return len(purpose.scenarios) * _SECONDS_A_SCENARIO + (waiting / hosts if hosts else 0)
+def _effort(purpose: TestPurpose, hosts: int) -> int:
+    """About how many milliseconds ``purpose`` takes; only the proportions count."""
+    waiting = sum(duration(step)[0] for _, scenario in purpose.scenarios for step in scenario.steps)
+    return len(purpose.scenarios) * _MILLISECONDS_A_SCENARIO + (waiting // hosts if hosts else 0)
