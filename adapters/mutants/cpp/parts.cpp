@@ -50,6 +50,12 @@ const Mutant& chosen() {
     return mutant;
 }
 
+/// A guard that keeps nobody out.
+class OpenGuard final : public lwucm::Guard {
+  public:
+    void call(const std::function<void()>& code) override { code(); }
+};
+
 }  // namespace
 
 std::map<std::string, Mutant>& mutants() {
@@ -83,6 +89,27 @@ std::unique_ptr<SelfExecution> Parts::self_execution(std::shared_ptr<component_e
         return own.self_execution(std::move(component), std::move(guard));
     }
     return std::unique_ptr<SelfExecution>(new SelfExecution(std::move(component), std::move(guard)));
+}
+
+std::unique_ptr<SelfExecution> Parts::paced_self_execution(std::shared_ptr<component_execution_intf> component,
+                                                           std::shared_ptr<Guard> guard, const Pacing& pacing) {
+    const derived::Mutant& own = derived::chosen();
+    return std::unique_ptr<SelfExecution>(new PacedSelfExecution(
+        std::move(component), own.keeps_runs_apart ? std::move(guard) : std::make_shared<derived::OpenGuard>(),
+        own.pacing_of_runs ? own.pacing_of_runs(pacing) : pacing));
+}
+
+std::shared_ptr<PacedGuard> Parts::paced_guard(std::shared_ptr<Monitor> monitor, std::shared_ptr<Guard> inner,
+                                               const Pacing& pacing) {
+    const derived::Mutant& own = derived::chosen();
+    return std::make_shared<PacedGuard>(
+        std::move(monitor), own.keeps_calls_apart ? std::move(inner) : std::make_shared<derived::OpenGuard>(),
+        own.pacing_of_calls ? own.pacing_of_calls(pacing) : pacing);
+}
+
+std::shared_ptr<Timers> Parts::timers(std::shared_ptr<Guard> guard) {
+    const derived::Mutant& own = derived::chosen();
+    return own.timers ? own.timers(std::move(guard)) : std::make_shared<Timers>(std::move(guard));
 }
 
 std::unique_ptr<Inbox> Parts::inbox(std::function<void(const Bytes&)> deliver, const Options& options) {

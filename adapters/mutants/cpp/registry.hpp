@@ -27,6 +27,11 @@ struct Mutant {
     std::function<std::unique_ptr<lwucm::SelfExecution>(std::shared_ptr<lwucm::component_execution_intf>,
                                                         std::shared_ptr<lwucm::Guard>)>
         self_execution;
+    std::function<lwucm::Pacing(lwucm::Pacing)> pacing_of_runs;   // of self-executing components with a policy of 10.5
+    std::function<lwucm::Pacing(lwucm::Pacing)> pacing_of_calls;  // of active components with a policy of 10.5
+    bool keeps_runs_apart = true;   // the runs of the former from calls
+    bool keeps_calls_apart = true;  // calls of the latter from each other
+    std::function<std::shared_ptr<lwucm::Timers>(std::shared_ptr<lwucm::Guard>)> timers;
     std::function<std::unique_ptr<lwucm::Inbox>(std::function<void(const lwucm::Bytes&)>, const lwucm::Options&)> inbox;
 };
 
@@ -57,6 +62,12 @@ void set_part(Mutant& mutant, const lwucm::Inbox*) {
 }
 
 template <class Own>
+void set_part(Mutant& mutant, const lwucm::Timers*) {
+    mutant.clauses = {"10.3"};
+    mutant.timers = [](std::shared_ptr<lwucm::Guard> guard) { return std::make_shared<Own>(std::move(guard)); };
+}
+
+template <class Own>
 void set_part(Mutant& mutant, const lwucm::ManagerImpl*) {
     mutant.clauses = {"11", "12.10"};
     mutant.runtime = [](std::shared_ptr<lwucm::Shared> shared) { return std::make_shared<Own>(std::move(shared)); };
@@ -73,6 +84,17 @@ bool breaks(const std::string& name, std::vector<std::string> requirements, cons
     mutant.readings = std::move(readings);
     set_part<Own>(mutant, static_cast<const Own*>(nullptr));
     return true;
+}
+
+/// Registers a mutant that is wrong in what it does with policies of 10.5; returns it, so that this can be set.
+inline Mutant& breaks_pacing(const std::string& name, std::vector<std::string> requirements, const std::string& lie,
+                             std::vector<std::string> also = {}) {
+    Mutant& mutant = mutants()[name];
+    mutant.clauses = {"10.5"};
+    mutant.requirements = std::move(requirements);
+    mutant.also = std::move(also);
+    mutant.lie = lie;
+    return mutant;
 }
 
 /// The same for a rare defect, which a run shows in one of several places.

@@ -27,6 +27,25 @@ QUICK = {
 }
 """What finds some of them out in a second or two: purposes whose name begins so."""
 
+OF_TIME = (
+    "doubles_distances_of_calls",
+    "each_third_timer_is_lost",
+    "executes_paced_calls_side_by_side",
+    "forgets_offsets_of_calls",
+    "forgets_offsets_of_runs",
+    "halves_distances_of_calls",
+    "halves_periods_of_runs",
+    "runs_beside_calls",
+    "runs_in_the_background_for_ever",
+    "stretches_periods_of_calls",
+    "stretches_periods_of_runs",
+    "timers_are_early",
+    "timers_are_late",
+    "timers_are_not_cancelled",
+    "timers_pass_the_guard",
+)
+"""Those of 10.3 and 10.5."""
+
 
 @pytest.fixture(scope="module")
 def command(builds: Builds) -> Path:
@@ -46,7 +65,7 @@ def test_each_mutant_names_its_requirements(known: dict[str, NativeMutant]) -> N
         assert mutant.lie.endswith(".")
         assert mutant.requirements
         assert {*mutant.requirements, *mutant.also} <= requirements
-        assert any(purpose.clause.startswith(mutant.clauses) for purpose in load_purposes("core"))
+        assert any(purpose.clause.startswith(mutant.clauses) for purpose in load_purposes("extensions"))
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -55,6 +74,19 @@ def test_mutant_is_found_out(command: Path, known: dict[str, NativeMutant], name
     assert not result.spills
     assert not result.wrongly_said
     assert {kill.requirement for kill in result.kills if kill.names_the_place} & set(known[name].requirements)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", OF_TIME)
+def test_mutant_of_time_fails_for_the_right_reason(command: Path, known: dict[str, NativeMutant], name: str) -> None:
+    result = examine_mutant(native_subject(known[name], command), Thoroughness(quick=True))
+    assert result.is_killed, (result.survives, result.trouble, result.incidents)
+    assert not result.spills
+    assert not result.wrongly_said
+
+
+def test_all_mutants_of_time_are_examined(known: dict[str, NativeMutant]) -> None:
+    assert {*OF_TIME} == {name for name, mutant in known.items() if mutant.clauses[0] in ("10.3", "10.5")}
 
 
 def test_unknown_mutant_is_refused(command: Path) -> None:

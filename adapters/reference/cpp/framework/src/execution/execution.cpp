@@ -43,7 +43,7 @@ void Execution::make_guards(ComponentObject& body) {
     }
     guard_ = chosen == Options::Executor::caller ? monitor : active_guard_;
     if (demands_.protection == Protection::active && demands_.pacing.kind != Pacing::Kind::none) {
-        active_guard_ = paced_guard_ = std::make_shared<PacedGuard>(monitor, active_guard_, demands_.pacing);
+        active_guard_ = paced_guard_ = Parts::paced_guard(monitor, active_guard_, demands_.pacing);
     }
     if (demands_.protection == Protection::self_executing) {
         std::shared_ptr<component_execution_intf> component;
@@ -56,7 +56,7 @@ void Execution::make_guards(ComponentObject& body) {
         if (demands_.pacing.kind == Pacing::Kind::none) {
             self_execution_ = Parts::self_execution(std::move(component), guard_);
         } else {
-            self_execution_.reset(new PacedSelfExecution(std::move(component), guard_, demands_.pacing));
+            self_execution_ = Parts::paced_self_execution(std::move(component), guard_, demands_.pacing);
         }
     }
 }
@@ -69,7 +69,7 @@ void Execution::make_timers(ComponentObject& body) {
     const bool by_index = demands(RequiredService::Kind::index_timers);
     const bool as_objects = demands(RequiredService::Kind::object_timers);
     if (by_index || as_objects) {
-        timers_ = std::make_shared<Timers>(guard_);
+        timers_ = Parts::timers(guard_);
     }
     if (by_index) {
         index_timers_ = std::make_shared<IndexTimers>(timers_, timer_callback(body), platform_.clock);

@@ -45,16 +45,16 @@ class Timers {
 
     /// `guard` is null if nothing stands between the component and those who call it.
     explicit Timers(std::shared_ptr<Guard> guard);
-    ~Timers();
+    virtual ~Timers();
 
     /// Has a timer wait. If one of that name waits already, that one stays as it is. Returns false, and nothing is set, outside
     /// of `open` and `end`.
-    bool set(Name name, std::unique_ptr<Timer> timer);
+    virtual bool set(Name name, std::unique_ptr<Timer> timer);
 
     /// Does `set` set timers now?
     bool are_set() const;
 
-    void cancel(Name name);
+    virtual void cancel(Name name);
     bool waits(Name name) const;
 
     /// The component is about to start: it may set timers.

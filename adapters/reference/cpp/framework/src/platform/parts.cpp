@@ -19,6 +19,18 @@ std::unique_ptr<SelfExecution> Parts::self_execution(std::shared_ptr<component_e
     return std::unique_ptr<SelfExecution>(new SelfExecution(std::move(component), std::move(guard)));
 }
 
+std::unique_ptr<SelfExecution> Parts::paced_self_execution(std::shared_ptr<component_execution_intf> component,
+                                                           std::shared_ptr<Guard> guard, const Pacing& pacing) {
+    return std::unique_ptr<SelfExecution>(new PacedSelfExecution(std::move(component), std::move(guard), pacing));
+}
+
+std::shared_ptr<PacedGuard> Parts::paced_guard(std::shared_ptr<Monitor> monitor, std::shared_ptr<Guard> inner,
+                                               const Pacing& pacing) {
+    return std::make_shared<PacedGuard>(std::move(monitor), std::move(inner), pacing);
+}
+
+std::shared_ptr<Timers> Parts::timers(std::shared_ptr<Guard> guard) { return std::make_shared<Timers>(std::move(guard)); }
+
 std::unique_ptr<Inbox> Parts::inbox(std::function<void(const Bytes&)> deliver, const Options& options) {
     return std::unique_ptr<Inbox>(new Inbox(std::move(deliver), options));
 }

@@ -7,7 +7,9 @@
 
 #include "containers/shared.hpp"
 #include "execution/monitor.hpp"
+#include "execution/pacing.hpp"
 #include "execution/self_execution.hpp"
+#include "execution/timers.hpp"
 #include "links/inbox.hpp"
 #include "lwucm/runtime.hpp"
 
@@ -20,6 +22,11 @@ struct Parts {
     static std::shared_ptr<Monitor> monitor();
     static std::unique_ptr<SelfExecution> self_execution(std::shared_ptr<component_execution_intf> component,
                                                          std::shared_ptr<Guard> guard);
+    static std::unique_ptr<SelfExecution> paced_self_execution(std::shared_ptr<component_execution_intf> component,
+                                                               std::shared_ptr<Guard> guard, const Pacing& pacing);
+    static std::shared_ptr<PacedGuard> paced_guard(std::shared_ptr<Monitor> monitor, std::shared_ptr<Guard> inner,
+                                                   const Pacing& pacing);
+    static std::shared_ptr<Timers> timers(std::shared_ptr<Guard> guard);
     static std::unique_ptr<Inbox> inbox(std::function<void(const Bytes&)> deliver, const Options& options);
 };
 
