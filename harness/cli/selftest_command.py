@@ -18,7 +18,9 @@ from ucm_cts.harness.cli.options import out_folder
     "--whole", is_flag=True, help="Run all of profile core on each subject, not only the clauses that it concerns."
 )
 @click.option(
-    "--real-time", is_flag=True, help="Run in real time what usually runs in virtual time, which takes as long as subjects wait."
+    "--real-time",
+    is_flag=True,
+    help="Run in real time what usually runs in virtual time, which takes as long as subjects wait.",
 )
 @click.option(
     "--jobs",

@@ -86,6 +86,13 @@ bool breaks(const std::string& name, std::vector<std::string> requirements, cons
     return true;
 }
 
+/// The same for a rare defect, which a run shows in one of several places.
+template <class Own>
+bool breaks_rarely(const std::string& name, std::vector<std::string> requirements, const std::string& lie) {
+    mutants()[name].is_rare = true;
+    return breaks<Own>(name, std::move(requirements), lie);
+}
+
 /// Registers a mutant that is wrong in what it does with policies of 10.5; returns it, so that this can be set.
 inline Mutant& breaks_pacing(const std::string& name, std::vector<std::string> requirements, const std::string& lie,
                              std::vector<std::string> also = {}) {
@@ -95,13 +102,6 @@ inline Mutant& breaks_pacing(const std::string& name, std::vector<std::string> r
     mutant.also = std::move(also);
     mutant.lie = lie;
     return mutant;
-}
-
-/// The same for a rare defect, which a run shows in one of several places.
-template <class Own>
-bool breaks_rarely(const std::string& name, std::vector<std::string> requirements, const std::string& lie) {
-    mutants()[name].is_rare = true;
-    return breaks<Own>(name, std::move(requirements), lie);
 }
 
 }  // namespace derived

@@ -23,7 +23,9 @@ def main() -> None:
     parser.add_argument("--preload", default="", help="a library that hosts load before all others")
     options = parser.parse_args()
     path: str = options.path
-    environment = {**os.environ, "LD_PRELOAD": options.preload} if options.preload else os.environ
+    environment = dict(os.environ)
+    if options.preload:
+        environment["LD_PRELOAD"] = ":".join(filter(None, (options.preload, environment.get("LD_PRELOAD"))))
 
     def become_host(source: int, target: int) -> NoReturn:
         os.dup2(source, 0)

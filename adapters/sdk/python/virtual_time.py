@@ -23,7 +23,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 READING = 10_000
-"""Nanoseconds that one reading of a clock takes, so that a thread that waits by reading it comes to an end; and to let another thread go on."""
+"""Clocks go on by so many nanoseconds with each reading, so that a thread that waits by reading them comes to an end, and when a
+released lock wakes a thread."""
 
 _ACQUIRING = 1_000
 """Nanoseconds that it takes to get a lock that is free, or to find it held."""
@@ -175,6 +176,7 @@ class _Lock:
                     self._waiters.append(waiter)
                     TIME.park(waiter, moment)
                     if waiter.is_late:
+                        self._waiters.remove(waiter)
                         return False
             waiter = _Waiter()
 

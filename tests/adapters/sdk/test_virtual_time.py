@@ -297,12 +297,11 @@ def written(place: Path, content: bytes) -> str:
     return str(place)
 
 
-def elf(machine: int, kind: int) -> bytes:
-    """The beginning of a 64-bit little-endian executable for ``machine``, with one segment of that ``kind``."""
+def elf(machine: int, kind: int, loader: bytes = b"/lib64/ld-linux-x86-64.so.2") -> bytes:
+    """The beginning of a 64-bit little-endian executable for ``machine``, with one segment of that ``kind``, which names ``loader``."""
     identity = b"\x7fELF\x02\x01\x01".ljust(16, b"\0")
-    return identity + struct.pack("<HHIQQQIHHHHHHI", 2, machine, 1, 0, 64, 0, 0, 64, 56, 1, 0, 0, 0, kind).ljust(
-        112, b"\0"
-    )
+    header = struct.pack("<HHIQQQIHHHHHH", 2, machine, 1, 0, 64, 0, 0, 64, 56, 1, 0, 0, 0)
+    return identity + header + struct.pack("<IIQ", kind, 4, 120).ljust(56, b"\0") + loader + b"\0"
 
 
 def test_a_program_is_in_virtual_time_only_if_it_loads_the_library(
@@ -320,14 +319,24 @@ def test_a_program_is_in_virtual_time_only_if_it_loads_the_library(
         "of another machine": elf(183, 3),
         "script": b"#!/bin/sh\n".ljust(200, b"#"),
         "cut": elf(62, 3)[:64],
+        "of musl": elf(62, 3, b"/lib/ld-musl-x86_64.so.1"),
         "empty": b"",
     }.items():
-        with pytest.raises(WrongUse, match="or an executable for this machine that the system's loader loads"):
+        with pytest.raises(WrongUse, match="or an executable for this machine and glibc"):
             locate(written(tmp_path / name, content), virtual_time=True)
+    os.chmod(native, 0o4755)
+    with pytest.raises(WrongUse, match="or an executable for this machine and glibc"):
+        locate(native, virtual_time=True)
+    library = tmp_path / "a folder" / "library.so"
+    library.parent.mkdir()
+    library.write_bytes(elf(62, 1))
+    monkeypatch.setattr(virtual_time, "LIBRARY", library)
+    with pytest.raises(WrongUse, match=r"has a blank or a colon, .*; install ucm-cts elsewhere"):
+        locate(native, virtual_time=True)
 
 
 def test_what_runs_elsewhere_is_not_in_virtual_time() -> None:
-    with pytest.raises(WrongUse, match="cannot run in virtual time: that takes a Python adapter, or an executable"):
+    with pytest.raises(WrongUse, match="cannot run in virtual time: that needs a Python adapter, or an executable"):
         locate("tcp://localhost:1", virtual_time=True)
 
 
@@ -353,6 +362,10 @@ def test_not_in_the_harness_s_own_process() -> None:
         "exits early": "joined 7.0",
         "contention": "40000",
         "polling": "seen 1.0",
+        "own locks": "true 0.0, true 0.0",
+        "error number": "true 1.0",
+        "signals": "served",
+        "detaches itself": "over",
         "looping": "done 60.0",
         "forked": "child 20.0, parent 1000.0",
     }.items(),

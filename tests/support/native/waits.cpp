@@ -1,6 +1,8 @@
 // Waits of many kinds. Each case prints what it got, and how many seconds had passed since the program began.
+#include <errno.h>
 #include <pthread.h>
 #include <semaphore.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -230,6 +232,91 @@ void polling() {
     other.join();
 }
 
+void own_locks() {
+    pthread_mutexattr_t attributes;
+    pthread_mutexattr_init(&attributes);
+    pthread_mutexattr_settype(&attributes, PTHREAD_MUTEX_ERRORCHECK);
+    pthread_mutex_t mutex;
+    pthread_mutex_init(&mutex, &attributes);
+    pthread_mutex_lock(&mutex);
+    say(pthread_mutex_lock(&mutex) == EDEADLK);
+    pthread_rwlock_t lock = PTHREAD_RWLOCK_INITIALIZER;
+    pthread_rwlock_wrlock(&lock);
+    say(pthread_rwlock_rdlock(&lock) == EDEADLK);
+}
+
+void error_number() {
+    std::mutex mutex;
+    mutex.lock();
+    std::thread other([&] {
+        errno = 0;
+        mutex.lock();
+        say(errno == 0);
+        mutex.unlock();
+    });
+    wait(1);
+    mutex.unlock();
+    other.join();
+}
+
+/// A signal may come while the thread changes the clock. Its handler calls what a handler may call.
+void signals() {
+    static sem_t semaphore;
+    sem_init(&semaphore, 0, 0);
+    static std::atomic<int> came;
+    std::atomic<bool> is_done{false};
+    std::thread interrupted([&] {
+        struct sigaction action = {};
+        action.sa_handler = [](int) {
+            timespec time;
+            clock_gettime(CLOCK_MONOTONIC, &time);
+            sem_post(&semaphore);
+            ++came;
+        };
+        action.sa_flags = SA_RESTART;
+        sigaction(SIGUSR1, &action, nullptr);
+        std::condition_variable changed;
+        while (!is_done) {
+            changed.notify_all();
+        }
+    });
+    std::thread waiting([] {
+        for (int number = 0; number < 200; ++number) {
+            sem_wait(&semaphore);
+        }
+    });
+    while (came < 200) {
+        const int before = came;
+        pthread_kill(interrupted.native_handle(), SIGUSR1);
+        while (came == before) {
+        }
+    }
+    waiting.join();
+    is_done = true;
+    interrupted.join();
+    std::printf("served\n");
+}
+
+void detaches_itself() {
+    static std::atomic<int> over;
+    for (int number = 0; number < 500; ++number) {
+        pthread_t* const thread = new pthread_t;
+        pthread_create(
+            thread, nullptr,
+            [](void*) -> void* {
+                pthread_detach(pthread_self());
+                ++over;
+                return nullptr;
+            },
+            nullptr);
+        delete thread;
+    }
+    while (over < 500) {
+        wait(1);
+    }
+    std::printf("over\n");
+}
+
 void looping() {
     std::atomic<bool> is_done{false};
     std::thread other([&] {
@@ -273,6 +360,10 @@ int main(int argc, char** argv) {
         {"exits early", exits_early},
         {"contention", contention},
         {"polling", polling},
+        {"own locks", own_locks},
+        {"error number", error_number},
+        {"signals", signals},
+        {"detaches itself", detaches_itself},
         {"looping", looping},
         {"forked", forked},
     };

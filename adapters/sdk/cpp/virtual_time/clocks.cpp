@@ -34,7 +34,7 @@ timespec in_timespec(Nanoseconds moment) {
 
 void sleep_for(Nanoseconds duration) {
     const Nanoseconds now = process_time.read();
-    process_time.sleep_until(duration < time_of::NEVER - now ? now + duration : time_of::NEVER);
+    process_time.sleep_until(time_of::after(now, duration));
 }
 
 }  // namespace
@@ -59,10 +59,12 @@ int timespec_get(timespec* time, int base) noexcept {
 }
 
 int gettimeofday(timeval* time, void* zone) noexcept {
-    static_cast<void>(zone);
     const Nanoseconds now = calendar();
     time->tv_sec = now / SECOND;
     time->tv_usec = now % SECOND / 1000;
+    if (zone != nullptr) {
+        *static_cast<struct timezone*>(zone) = {};
+    }
     return 0;
 }
 

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <pthread.h>
 #include <semaphore.h>
+#include <unistd.h>
 
 #include <climits>
 
@@ -24,16 +25,25 @@ time_of::Real<int(pthread_rwlock_t*)> unlock_rwlock("pthread_rwlock_unlock");
 time_of::Real<int(sem_t*)> try_semaphore("sem_trywait");
 time_of::Real<int(sem_t*)> post_semaphore("sem_post");
 
+/// `result`, or EDEADLK where the C library would say so because the calling thread is `owner`.
+int or_deadlock(int result, int owner) { return result == EBUSY && owner == gettid() ? EDEADLK : result; }
+
 int get(pthread_mutex_t* mutex, Nanoseconds moment) {
-    return process_time.obtain(mutex, moment, [mutex] { return try_mutex(mutex); });
+    return process_time.obtain(mutex, moment, [mutex] {
+        const int result = try_mutex(mutex);
+        const bool is_checked = (mutex->__data.__kind & 3) == PTHREAD_MUTEX_ERRORCHECK;
+        return is_checked ? or_deadlock(result, mutex->__data.__owner) : result;
+    });
 }
 
 int get_to_read(pthread_rwlock_t* lock, Nanoseconds moment) {
-    return process_time.obtain(lock, moment, [lock] { return try_to_read(lock); });
+    return process_time.obtain(lock, moment,
+                               [lock] { return or_deadlock(try_to_read(lock), lock->__data.__cur_writer); });
 }
 
 int get_to_write(pthread_rwlock_t* lock, Nanoseconds moment) {
-    return process_time.obtain(lock, moment, [lock] { return try_to_write(lock); });
+    return process_time.obtain(lock, moment,
+                               [lock] { return or_deadlock(try_to_write(lock), lock->__data.__cur_writer); });
 }
 
 int get(sem_t* semaphore, Nanoseconds moment) {

@@ -28,6 +28,7 @@ struct Thread {
     pthread_t id;
     int holders;  // its creator, the thread itself, and who may join it
     bool may_be_joined;
+    bool has_begun;
     bool has_ended;
     Thread* next;
 };
@@ -49,8 +50,11 @@ Thread* let_go(Thread* thread) {
         return nullptr;
     }
     Thread** place = &all;
-    while (*place != thread) {
+    while (*place != nullptr && *place != thread) {
         place = &(*place)->next;
+    }
+    if (*place == nullptr) {  // made before this process was forked
+        return nullptr;
     }
     *place = thread->next;
     return thread;
@@ -87,6 +91,7 @@ void* run(void* given) {
     Thread* const thread = static_cast<Thread*>(given);
     process_time.lock();
     thread->id = pthread_self();
+    thread->has_begun = true;
     process_time.unlock();
     const Running running(thread);
     return thread->work(thread->given);
@@ -132,7 +137,7 @@ int pthread_create(pthread_t* id, const pthread_attr_t* attributes, Work* work, 
     if (attributes != nullptr) {
         pthread_attr_getdetachstate(attributes, &state);
     }
-    Thread* const thread = new (std::nothrow) Thread{work, given, pthread_t(), 2, false, false, nullptr};
+    Thread* const thread = new (std::nothrow) Thread{work, given, pthread_t(), 2, false, false, false, nullptr};
     if (thread == nullptr) {
         return EAGAIN;
     }
@@ -145,10 +150,10 @@ int pthread_create(pthread_t* id, const pthread_attr_t* attributes, Work* work, 
     process_time.unlock();
     const int problem = real_create(id, attributes, &run, thread);
     process_time.lock();
-    if (problem == 0) {
-        thread->id = *id;
-    } else {
+    if (problem != 0) {
         thread->holders = 1;
+    } else if (!thread->has_begun) {  // one that has may have ended, and *id with it
+        thread->id = *id;
     }
     Thread* const unused = let_go(thread);
     process_time.unlock();

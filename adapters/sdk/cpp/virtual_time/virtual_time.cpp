@@ -12,14 +12,19 @@ namespace virtual_time {
 
 namespace {
 
-/// So long a thread that waits for a moment waits while another one runs: that one may wait for something that is not known here,
-/// or in a loop.
+/// After so much real time in which no thread began or ended to wait, the earliest moment comes although a thread runs. That
+/// thread may wait for something that is not known here, or in a loop.
 const timespec PATIENCE = {1, 0};
 
 Real<int(clockid_t, timespec*)> real_clock_gettime("clock_gettime");
 Real<int(pthread_mutex_t*)> real_lock("pthread_mutex_lock");
 Real<int(pthread_mutex_t*)> real_unlock("pthread_mutex_unlock");
+Real<int(clockid_t, int, const timespec*, timespec*)> real_clock_nanosleep("clock_nanosleep");
 Real<long(long, ...)> real_syscall("syscall");
+
+/// What the calling thread does: a signal handler sees it.
+__attribute__((tls_model("initial-exec"))) thread_local bool holds_lock = false;
+__attribute__((tls_model("initial-exec"))) thread_local bool is_parked = false;
 
 Nanoseconds real_time(clockid_t clock) {
     timespec time;
@@ -42,8 +47,11 @@ Nanoseconds calendar_ahead() {
 VirtualTime process_time;
 
 void VirtualTime::begin() {
-    now_ += real_time(CLOCK_MONOTONIC);
-    calendar_ahead();
+    if (!has_begun_.exchange(true)) {
+        now_ += real_time(CLOCK_MONOTONIC);
+        calendar_ahead();
+        real_syscall(SYS_gettid);  // is looked up now, and not while threads are locked out
+    }
 }
 
 Nanoseconds VirtualTime::read() {
@@ -52,10 +60,13 @@ Nanoseconds VirtualTime::read() {
 }
 
 void VirtualTime::pass(Nanoseconds duration) {
+    if (!has_begun_.load()) {
+        begin();
+    }
     if (waking_.load() > 0) {
         return;
     }
-    if (now_.fetch_add(duration) + duration < earliest_.load()) {
+    if (now_.fetch_add(duration) + duration < earliest_.load() || holds_lock) {
         return;
     }
     lock();
@@ -67,17 +78,60 @@ void VirtualTime::pass(Nanoseconds duration) {
 }
 
 void VirtualTime::sleep_until(Nanoseconds moment) {
+    if (holds_lock || is_parked) {  // in a signal handler
+        const Nanoseconds left = std::max(moment - now_.load(), Nanoseconds(0));
+        const timespec duration = {left / SECOND, left % SECOND};
+        real_clock_nanosleep(CLOCK_MONOTONIC, 0, &duration, nullptr);
+        return;
+    }
     lock();
     Waiter waiter(nullptr, moment);
     park(waiter);
     unlock();
 }
 
-void VirtualTime::lock() { real_lock(&mutex_); }
+void VirtualTime::lock() {
+    holds_lock = true;  // a little before it does, and a little longer
+    real_lock(&mutex_);
+}
 
-void VirtualTime::unlock() { real_unlock(&mutex_); }
+void VirtualTime::unlock() {
+    if (is_given_back_by_handler_.exchange(false)) {
+        for (Waiter* waiter = first_; waiter != nullptr;) {
+            Waiter* const next = waiter->after;
+            if (waiter->key != nullptr) {
+                wake_one(*waiter, false);
+            }
+            waiter = next;
+        }
+    }
+    real_unlock(&mutex_);
+    holds_lock = false;
+}
+
+void VirtualTime::given_back(const void* key, int most) {
+    std::atomic_thread_fence(std::memory_order_seq_cst);
+    if (contenders_.load() == 0) {
+        return;
+    }
+    if (holds_lock) {  // in a signal handler
+        is_given_back_by_handler_ = true;
+        return;
+    }
+    lock();
+    wake(key, most);
+    unlock();
+}
 
 void VirtualTime::park(Waiter& waiter) {
+    if (waiter.moment <= now_.load()) {
+        waiter.is_over = waiter.is_late = true;
+        if (waking_.load() == 0) {
+            now_ += READING;  // so that who asks again and again comes to an end
+        }
+        return;
+    }
+    const int error = errno;
     waiter.before = last_;
     (last_ != nullptr ? last_->after : first_) = &waiter;
     last_ = &waiter;
@@ -85,6 +139,7 @@ void VirtualTime::park(Waiter& waiter) {
     --running_;
     go_on();
     std::uint64_t seen = ++changes_;
+    is_parked = true;
     unlock();
     while (waiter.awake.load() == 0) {
         const bool is_timed = waiter.moment != NEVER;
@@ -92,7 +147,7 @@ void VirtualTime::park(Waiter& waiter) {
         if (is_timed && result < 0 && errno == ETIMEDOUT) {
             lock();
             if (seen == changes_ && !waiter.is_over && earliest() == &waiter) {
-                now_ = std::max(now_.load(), waiter.moment);
+                advance_to(waiter.moment);
                 wake_one(waiter, true);
             }
             seen = changes_;
@@ -100,7 +155,9 @@ void VirtualTime::park(Waiter& waiter) {
         }
     }
     lock();
+    is_parked = false;
     --waking_;
+    errno = error;
 }
 
 int VirtualTime::wake(const void* key, int most) {
@@ -141,12 +198,20 @@ void VirtualTime::forget_threads() {
     contenders_ = 0;
     earliest_ = NEVER;
     first_ = last_ = nullptr;
+    holds_lock = is_parked = false;
+}
+
+void VirtualTime::advance_to(Nanoseconds moment) {
+    Nanoseconds now = now_.load();
+    while (now < moment && !now_.compare_exchange_weak(now, moment)) {
+    }
 }
 
 void VirtualTime::go_on() {
-    while (running_ <= 0 && earliest_.load() != NEVER) {  // less than none: a thread that has ended still cleans up
+    // running_ is negative while a thread that no longer counts, since its work has ended, waits in a destructor
+    while (running_ <= 0 && earliest_.load() != NEVER) {
         Waiter* const waiter = earliest();
-        now_ = std::max(now_.load(), waiter->moment);
+        advance_to(waiter->moment);
         wake_one(*waiter, true);
     }
 }

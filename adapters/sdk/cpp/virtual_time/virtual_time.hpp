@@ -22,10 +22,11 @@ typedef std::int64_t Nanoseconds;
 const Nanoseconds SECOND = 1000000000;
 const Nanoseconds NEVER = INT64_MAX;
 
-/// What one reading of a clock takes, so that a thread that waits by reading it comes to an end; and what it takes to let another thread go on.
+/// The clock goes on by so much with each reading, so that a thread that waits by reading it comes to an end, and whenever a
+/// thread wakes another one.
 const Nanoseconds READING = 10000;
 
-/// What it takes to get a lock that is free, to find it held, or to let other threads run.
+/// The clock goes on by so much with each attempt to get a lock, and when a thread yields.
 const Nanoseconds ACQUIRING = 1000;
 
 /// One wait of one thread, on that thread's stack. `key`: the address of what it waits for, null for a mere sleep.
@@ -41,12 +42,13 @@ struct Waiter {
     std::atomic<int> awake{0};
 };
 
-/// Time as a library that is loaded before all others keeps it. Nothing here allocates memory or throws.
+/// The clock, and the threads that wait. Nothing here allocates memory, throws, or changes errno.
 ///
-/// Those of its functions that say so are called between `lock` and `unlock`.
+/// Those of its functions that say so are called between `lock` and `unlock`. A signal may interrupt a thread anywhere: what its
+/// handler calls then does without the lock, and its sleeps are real.
 class VirtualTime {
   public:
-    /// Sets the clock, once, before the program begins.
+    /// Sets the clock when it is first needed, which may be before any constructor has run.
     void begin();
 
     /// The clock now; the reading takes `READING`.
@@ -61,7 +63,7 @@ class VirtualTime {
     void lock();
     void unlock();
 
-    /// Locked: the calling thread waits. It is unlocked meanwhile.
+    /// Locked: the calling thread waits, unless the moment has come already. It is unlocked meanwhile.
     void park(Waiter& waiter);
 
     /// Locked: lets threads go on that wait for `key`, those first that came first; returns how many.
@@ -82,7 +84,8 @@ class VirtualTime {
             return result;
         }
         lock();
-        ++contenders_;  // before the next attempt: who gives it back looks here afterwards
+        ++contenders_;  // before the next attempt, because `given_back` reads it after the thing has been given back
+        std::atomic_thread_fence(std::memory_order_seq_cst);
         bool is_late = moment <= now_.load();
         while ((result = attempt()) == EBUSY && !is_late) {
             Waiter waiter(key, moment);
@@ -95,16 +98,10 @@ class VirtualTime {
     }
 
     /// What was got by `obtain` has been given back: at most `most` threads try again.
-    void given_back(const void* key, int most) {
-        std::atomic_thread_fence(std::memory_order_seq_cst);
-        if (contenders_.load() > 0) {
-            lock();
-            wake(key, most);
-            unlock();
-        }
-    }
+    void given_back(const void* key, int most);
 
   private:
+    void advance_to(Nanoseconds moment);
     void go_on();
     Waiter* earliest() const;
     void wake_one(Waiter& waiter, bool is_late);
@@ -114,6 +111,8 @@ class VirtualTime {
     std::atomic<Nanoseconds> earliest_{NEVER};
     std::atomic<int> waking_{0};  // threads that may go on, and have not yet
     std::atomic<int> contenders_{0};
+    std::atomic<bool> has_begun_{false};
+    std::atomic<bool> is_given_back_by_handler_{false};
     pthread_mutex_t mutex_ = PTHREAD_MUTEX_INITIALIZER;
     int running_ = 1;
     std::uint64_t changes_ = 0;
@@ -124,8 +123,15 @@ class VirtualTime {
 /// The time of this process.
 extern VirtualTime process_time;
 
+/// As many as fit: what is later is `NEVER`, and what is earlier as early as can be.
 inline Nanoseconds in_nanoseconds(const timespec& time) {
-    return time.tv_sec > NEVER / SECOND - 1 ? NEVER : time.tv_sec * SECOND + time.tv_nsec;
+    const Nanoseconds most = NEVER / SECOND - 1;
+    return time.tv_sec > most ? NEVER : time.tv_sec < -most ? -most * SECOND : time.tv_sec * SECOND + time.tv_nsec;
+}
+
+/// `duration` after `now`, or `NEVER`.
+inline Nanoseconds after(Nanoseconds now, Nanoseconds duration) {
+    return duration < NEVER - now ? now + duration : NEVER;
 }
 
 inline bool is_time(const timespec& time) { return time.tv_nsec >= 0 && time.tv_nsec < SECOND; }

@@ -32,8 +32,8 @@ int wait(pthread_cond_t* condition, pthread_mutex_t* mutex, Nanoseconds moment) 
     time_of::Waiter waiter(condition, moment);
     process_time.park(waiter);
     process_time.unlock();
-    pthread_mutex_lock(mutex);
-    return waiter.is_late ? ETIMEDOUT : 0;
+    const int result = pthread_mutex_lock(mutex);
+    return result == 0 && waiter.is_late ? ETIMEDOUT : result;
 }
 
 int signal(pthread_cond_t* condition, int most) {
@@ -43,7 +43,7 @@ int signal(pthread_cond_t* condition, int most) {
     return 0;
 }
 
-/// Which clock the condition's moments are of. The field is the C library's, which sets it when the condition is made.
+/// The clock of the condition's moments, as the C library noted it when the condition was made.
 clockid_t clock_of(const pthread_cond_t* condition) {
     return (condition->__data.__wrefs & 2) != 0 ? CLOCK_MONOTONIC : CLOCK_REALTIME;
 }
@@ -56,9 +56,12 @@ long fail(int error) {
 long wait(const int* address, int operation, int expected, const timespec* timeout) {
     Nanoseconds moment = NEVER;
     if (timeout != nullptr) {
+        if (!time_of::is_time(*timeout)) {
+            return fail(EINVAL);
+        }
         const bool is_calendar = (operation & FUTEX_CLOCK_REALTIME) != 0;
         moment = (operation & FUTEX_CMD_MASK) == FUTEX_WAIT
-                     ? process_time.read() + time_of::in_nanoseconds(*timeout)
+                     ? time_of::after(process_time.read(), time_of::in_nanoseconds(*timeout))
                      : time_of::on_monotonic_clock(is_calendar ? CLOCK_REALTIME : CLOCK_MONOTONIC, *timeout);
     }
     process_time.lock();
@@ -72,11 +75,11 @@ long wait(const int* address, int operation, int expected, const timespec* timeo
     return waiter.is_late ? fail(ETIMEDOUT) : 0;
 }
 
-long wake(const int* address, int most) {
+long wake(const int* address, int operation, int most, long set) {
     process_time.lock();
     const int woken = process_time.wake(address, most);
     process_time.unlock();
-    return woken;
+    return woken + real_syscall(SYS_futex, address, operation, most - woken, nullptr, nullptr, set);  // who waits there
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ long syscall(long number, ...) noexcept {
                 return wait(address, operation, static_cast<int>(given[2]), reinterpret_cast<const timespec*>(given[3]));
             case FUTEX_WAKE:
             case FUTEX_WAKE_BITSET:
-                return wake(address, static_cast<int>(given[2]));
+                return wake(address, operation, static_cast<int>(given[2]), given[5]);
             default:
                 break;
         }
