@@ -20,6 +20,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any, cast
 
 READING = 10_000
@@ -176,7 +177,8 @@ class _Lock:
                     self._waiters.append(waiter)
                     TIME.park(waiter, moment)
                     if waiter.is_late:
-                        self._waiters.remove(waiter)
+                        with suppress(ValueError):  # a release has passed it over
+                            self._waiters.remove(waiter)
                         return False
             waiter = _Waiter()
 

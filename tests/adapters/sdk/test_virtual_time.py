@@ -275,6 +275,20 @@ def test_patience_runs_out_at_once(adapter: str) -> None:
             """,
             "True",
         ),
+        (
+            """
+            for number in range(2000):  # the lock is released when, or just before or after, the time is over
+                lock = threading.Lock()
+                lock.acquire()
+                thread = threading.Thread(target=lambda: (time.sleep(0.001), lock.release()))
+                thread.start()
+                lock.acquire(timeout=0.001 + number * 1e-7)
+                thread.join()
+                assert len(lock._waiters) == 0
+            print("done")
+            """,
+            "done",
+        ),
         ("print(time.monotonic_ns() < time.monotonic_ns() <= time.monotonic_ns() + READING)", "True"),
         (
             """
