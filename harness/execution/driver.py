@@ -71,10 +71,9 @@ class Driver(Disguising):
         self._incident_time = IncidentTime(self._hosts.limits.incident_seconds)
         self._is_near = endpoint.kind in ("python", "executable") and not endpoint.virtual_time
         self._clocks: dict[int, HostClock] = {}
-        is_one_of_many = endpoint.kind in ("python", "executable") and not endpoint.in_process
-        self._side_hosts = (
-            jobs - 1 if is_one_of_many and not endpoint.virtual_time else 0
-        )  # in which waits take no time
+        may_be_several = endpoint.kind in ("python", "executable") and not endpoint.in_process
+        # in virtual time waits take none, so that further hosts would gain nothing
+        self._side_hosts = jobs - 1 if may_be_several and not endpoint.virtual_time else 0
         self._side: SideHosts | None = None
         self._left_behind: Counter[str] = Counter()
         self._left_waiting = 0

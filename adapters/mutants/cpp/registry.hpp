@@ -73,14 +73,21 @@ void set_part(Mutant& mutant, const lwucm::ManagerImpl*) {
     mutant.runtime = [](std::shared_ptr<lwucm::Shared> shared) { return std::make_shared<Own>(std::move(shared)); };
 }
 
-/// Registers a mutant whose part `Own`, a class derived from the framework's, is wrong.
-template <class Own>
-bool breaks(const std::string& name, std::vector<std::string> requirements, const std::string& lie,
-            std::vector<std::string> also = {}, std::map<std::string, std::string> readings = {}) {
+/// Registers a mutant; returns it, so that its parts can be set.
+inline Mutant& registered(const std::string& name, std::vector<std::string> requirements, const std::string& lie,
+                          std::vector<std::string> also) {
     Mutant& mutant = mutants()[name];
     mutant.requirements = std::move(requirements);
     mutant.also = std::move(also);
     mutant.lie = lie;
+    return mutant;
+}
+
+/// Registers a mutant whose part `Own`, a class derived from the framework's, is wrong.
+template <class Own>
+bool breaks(const std::string& name, std::vector<std::string> requirements, const std::string& lie,
+            std::vector<std::string> also = {}, std::map<std::string, std::string> readings = {}) {
+    Mutant& mutant = registered(name, std::move(requirements), lie, std::move(also));
     mutant.readings = std::move(readings);
     set_part<Own>(mutant, static_cast<const Own*>(nullptr));
     return true;
@@ -96,11 +103,8 @@ bool breaks_rarely(const std::string& name, std::vector<std::string> requirement
 /// Registers a mutant that is wrong in what it does with policies of 10.5; returns it, so that this can be set.
 inline Mutant& breaks_pacing(const std::string& name, std::vector<std::string> requirements, const std::string& lie,
                              std::vector<std::string> also = {}) {
-    Mutant& mutant = mutants()[name];
+    Mutant& mutant = registered(name, std::move(requirements), lie, std::move(also));
     mutant.clauses = {"10.5"};
-    mutant.requirements = std::move(requirements);
-    mutant.also = std::move(also);
-    mutant.lie = lie;
     return mutant;
 }
 

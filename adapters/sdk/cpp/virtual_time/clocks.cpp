@@ -15,8 +15,6 @@ using time_of::SECOND;
 
 namespace {
 
-time_of::Real<int(clockid_t, timespec*)> real_clock_gettime("clock_gettime");
-time_of::Real<int(clockid_t, int, const timespec*, timespec*)> real_clock_nanosleep("clock_nanosleep");
 time_of::Real<int()> real_sched_yield("sched_yield");
 
 Nanoseconds calendar() {
@@ -44,7 +42,7 @@ extern "C" {
 int clock_gettime(clockid_t clock, timespec* time) noexcept {
     Nanoseconds ahead = 0;
     if (!time_of::is_virtual(clock, ahead)) {
-        return real_clock_gettime(clock, time);
+        return time_of::real_clock_gettime(clock, time);
     }
     *time = in_timespec(process_time.read() + ahead);
     return 0;
@@ -91,7 +89,7 @@ int nanosleep(const timespec* duration, timespec* left) {
 int clock_nanosleep(clockid_t clock, int flags, const timespec* moment, timespec* left) {
     Nanoseconds ahead = 0;
     if (!time_of::is_virtual(clock, ahead)) {
-        return real_clock_nanosleep(clock, flags, moment, left);
+        return time_of::real_clock_nanosleep(clock, flags, moment, left);
     }
     if (moment->tv_sec < 0 || !time_of::is_time(*moment)) {
         return EINVAL;

@@ -18,7 +18,6 @@ using time_of::process_time;
 namespace {
 
 time_of::Real<int(pthread_mutex_t*)> try_mutex("pthread_mutex_trylock");
-time_of::Real<int(pthread_mutex_t*)> unlock_mutex("pthread_mutex_unlock");
 time_of::Real<int(pthread_rwlock_t*)> try_to_read("pthread_rwlock_tryrdlock");
 time_of::Real<int(pthread_rwlock_t*)> try_to_write("pthread_rwlock_trywrlock");
 time_of::Real<int(pthread_rwlock_t*)> unlock_rwlock("pthread_rwlock_unlock");
@@ -81,7 +80,7 @@ int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
 }
 
 int pthread_mutex_unlock(pthread_mutex_t* mutex) noexcept {
-    const int result = unlock_mutex(mutex);
+    const int result = time_of::real_unlock(mutex);
     process_time.given_back(mutex, 1);
     return result;
 }

@@ -3,6 +3,8 @@
 #define UCM_CTS_VIRTUAL_TIME_REAL_HPP
 
 #include <dlfcn.h>
+#include <pthread.h>
+#include <time.h>
 
 #include <atomic>
 
@@ -30,6 +32,12 @@ class Real {
     const char* const name_;
     std::atomic<Function*> found_{nullptr};
 };
+
+// those that several files call
+inline Real<int(clockid_t, timespec*)> real_clock_gettime("clock_gettime");
+inline Real<int(clockid_t, int, const timespec*, timespec*)> real_clock_nanosleep("clock_nanosleep");
+inline Real<int(pthread_mutex_t*)> real_unlock("pthread_mutex_unlock");
+inline Real<long(long, ...)> real_syscall("syscall");
 
 }  // namespace virtual_time
 }  // namespace ucm_cts

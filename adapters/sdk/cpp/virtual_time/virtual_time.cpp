@@ -16,11 +16,7 @@ namespace {
 /// thread may wait for something that is not known here, or in a loop.
 const timespec PATIENCE = {1, 0};
 
-Real<int(clockid_t, timespec*)> real_clock_gettime("clock_gettime");
 Real<int(pthread_mutex_t*)> real_lock("pthread_mutex_lock");
-Real<int(pthread_mutex_t*)> real_unlock("pthread_mutex_unlock");
-Real<int(clockid_t, int, const timespec*, timespec*)> real_clock_nanosleep("clock_nanosleep");
-Real<long(long, ...)> real_syscall("syscall");
 
 /// What the calling thread does: a signal handler sees it.
 __attribute__((tls_model("initial-exec"))) thread_local bool holds_lock = false;

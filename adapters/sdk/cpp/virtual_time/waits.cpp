@@ -18,12 +18,9 @@ using time_of::process_time;
 
 namespace {
 
-time_of::Real<int(pthread_mutex_t*)> unlock_mutex("pthread_mutex_unlock");
-time_of::Real<long(long, ...)> real_syscall("syscall");
-
 int wait(pthread_cond_t* condition, pthread_mutex_t* mutex, Nanoseconds moment) {
     process_time.lock();
-    const int problem = unlock_mutex(mutex);
+    const int problem = time_of::real_unlock(mutex);
     if (problem != 0) {
         process_time.unlock();
         return problem;
@@ -79,7 +76,7 @@ long wake(const int* address, int operation, int most, long set) {
     process_time.lock();
     const int woken = process_time.wake(address, most);
     process_time.unlock();
-    return woken + real_syscall(SYS_futex, address, operation, most - woken, nullptr, nullptr, set);  // who waits there
+    return woken + time_of::real_syscall(SYS_futex, address, operation, most - woken, nullptr, nullptr, set);  // who waits there
 }
 
 }  // namespace
@@ -122,7 +119,7 @@ long syscall(long number, ...) noexcept {
                 break;
         }
     }
-    return real_syscall(number, given[0], given[1], given[2], given[3], given[4], given[5]);
+    return time_of::real_syscall(number, given[0], given[1], given[2], given[3], given[4], given[5]);
 }
 
 }  // extern "C"
