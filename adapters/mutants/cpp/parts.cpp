@@ -120,4 +120,19 @@ std::unique_ptr<Inbox> Parts::inbox(std::function<void(const Bytes&)> deliver, c
     return std::unique_ptr<Inbox>(new Inbox(std::move(deliver), options));
 }
 
+std::unique_ptr<OpenRequests> Parts::open_requests() {
+    const derived::Mutant& own = derived::chosen();
+    return own.open_requests ? own.open_requests() : std::unique_ptr<OpenRequests>(new OpenRequests);
+}
+
+std::unique_ptr<Draft> Parts::draft() {
+    const derived::Mutant& own = derived::chosen();
+    return own.draft ? own.draft() : std::unique_ptr<Draft>(new Draft);
+}
+
+std::unique_ptr<View> Parts::view(const Value& at_first) {
+    const derived::Mutant& own = derived::chosen();
+    return own.view ? own.view(at_first) : std::unique_ptr<View>(new View(at_first));
+}
+
 }  // namespace lwucm

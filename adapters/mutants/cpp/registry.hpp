@@ -33,6 +33,9 @@ struct Mutant {
     bool keeps_calls_apart = true;  // calls of the latter from each other
     std::function<std::shared_ptr<lwucm::Timers>(std::shared_ptr<lwucm::Guard>)> timers;
     std::function<std::unique_ptr<lwucm::Inbox>(std::function<void(const lwucm::Bytes&)>, const lwucm::Options&)> inbox;
+    std::function<std::unique_ptr<lwucm::OpenRequests>()> open_requests;
+    std::function<std::unique_ptr<lwucm::Draft>()> draft;
+    std::function<std::unique_ptr<lwucm::View>(const lwucm::Value&)> view;
 };
 
 /// All mutants by name.
@@ -65,6 +68,24 @@ template <class Own>
 void set_part(Mutant& mutant, const lwucm::Timers*) {
     mutant.clauses = {"10.3"};
     mutant.timers = [](std::shared_ptr<lwucm::Guard> guard) { return std::make_shared<Own>(std::move(guard)); };
+}
+
+template <class Own>
+void set_part(Mutant& mutant, const lwucm::OpenRequests*) {
+    mutant.clauses = {"10.4.1"};
+    mutant.open_requests = [] { return std::unique_ptr<lwucm::OpenRequests>(new Own); };
+}
+
+template <class Own>
+void set_part(Mutant& mutant, const lwucm::Draft*) {
+    mutant.clauses = {"10.4.2"};
+    mutant.draft = [] { return std::unique_ptr<lwucm::Draft>(new Own); };
+}
+
+template <class Own>
+void set_part(Mutant& mutant, const lwucm::View*) {
+    mutant.clauses = {"10.4.2"};
+    mutant.view = [](const lwucm::Value& at_first) { return std::unique_ptr<lwucm::View>(new Own(at_first)); };
 }
 
 template <class Own>

@@ -27,24 +27,41 @@ QUICK = {
 }
 """What finds some of them out in a second or two: purposes whose name begins so."""
 
-OF_TIME = (
+OF_EXTENSIONS = (
+    "answers_the_first_request",
+    "cancels_no_data",
+    "cannot_release_data",
     "doubles_distances_of_calls",
     "each_third_timer_is_lost",
     "executes_paced_calls_side_by_side",
+    "forgets_data_that_was_read",
+    "forgets_each_third_request",
     "forgets_offsets_of_calls",
     "forgets_offsets_of_runs",
+    "freezes_data_once",
+    "freezes_no_data",
     "halves_distances_of_calls",
     "halves_periods_of_runs",
+    "keeps_the_first_data",
+    "misses_data_while_frozen",
+    "passes_on_second_responses",
+    "reads_go_back",
+    "releases_to_the_first_missed_data",
+    "repeats_the_first_response",
+    "repeats_the_first_result",
     "runs_beside_calls",
     "runs_in_the_background_for_ever",
+    "sets_no_data_after_cancelling",
     "stretches_periods_of_calls",
     "stretches_periods_of_runs",
+    "takes_unknown_responses",
     "timers_are_early",
     "timers_are_late",
     "timers_are_not_cancelled",
     "timers_pass_the_guard",
+    "two_open_requests_have_one_number",
 )
-"""Those of 10.3 and 10.5."""
+"""Those of 10.3, 10.4 and 10.5."""
 
 
 @pytest.fixture(scope="module")
@@ -77,16 +94,20 @@ def test_mutant_is_found_out(command: Path, known: dict[str, NativeMutant], name
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", OF_TIME)
-def test_mutant_of_time_fails_for_the_right_reason(command: Path, known: dict[str, NativeMutant], name: str) -> None:
+@pytest.mark.parametrize("name", OF_EXTENSIONS)
+def test_mutant_of_extensions_fails_for_the_right_reason(
+    command: Path, known: dict[str, NativeMutant], name: str
+) -> None:
     result = examine_mutant(native_subject(known[name], command), Thoroughness(quick=True))
     assert result.is_killed, (result.survives, result.trouble, result.incidents)
     assert not result.spills
     assert not result.wrongly_said
 
 
-def test_all_mutants_of_time_are_examined(known: dict[str, NativeMutant]) -> None:
-    assert {*OF_TIME} == {name for name, mutant in known.items() if mutant.clauses[0] in ("10.3", "10.5")}
+def test_all_mutants_of_extensions_are_examined(known: dict[str, NativeMutant]) -> None:
+    assert {*OF_EXTENSIONS} == {
+        name for name, mutant in known.items() if mutant.clauses[0].startswith(("10.3", "10.4", "10.5"))
+    }
 
 
 def test_unknown_mutant_is_refused(command: Path) -> None:

@@ -1,26 +1,19 @@
 // The request-response connector (10.4.1). Requests of synchronous clients to a synchronous server are calls of it; all
 // others have a number until they are answered. A request that is open when its client or server is stopped is dropped.
-#include <algorithm>
 #include <cstdint>
-#include <map>
+#include <memory>
+#include <mutex>
 #include <utility>
 
 #include "containers/container_impl.hpp"
 #include "links/connectors.hpp"
+#include "links/open_requests.hpp"
 #include "links/request_response_interfaces.hpp"
+#include "platform/parts.hpp"
 
 namespace lwucm {
 
 namespace {
-
-/// A request that waits for its response. `callback` is null if its client waits.
-struct OpenRequest {
-    const Instance* client;
-    std::shared_ptr<CalledEnd> callback;
-    bool is_over = false;
-    bool is_answered = false;
-    Value response;
-};
 
 class RequestResponse final : public PortLink {
   public:
@@ -31,14 +24,7 @@ class RequestResponse final : public PortLink {
 
     /// Drops the open requests of a component, or all if it is the server.
     void abandon(const Instance& instance) override {
-        std::lock_guard<std::mutex> lock(mutex_);
-        const bool all = server_ && &server_->instance() == &instance;
-        for (auto one = open_.begin(); one != open_.end();) {
-            const bool is_dropped = all || one->second->client == &instance;
-            one->second->is_over = one->second->is_over || is_dropped;
-            one = is_dropped ? open_.erase(one) : std::next(one);
-        }
-        over_.notify_all();
+        requests_->abandon(is_of_server(instance) ? nullptr : &instance);
     }
 
   protected:
@@ -71,6 +57,11 @@ class RequestResponse final : public PortLink {
     }
 
   private:
+    bool is_of_server(const Instance& instance) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        return server_ && &server_->instance() == &instance;
+    }
+
     static bool is_server(Role role) {
         return role == Role::rr_synchronous_server || role == Role::rr_asynchronous_server;
     }
@@ -93,13 +84,9 @@ class RequestResponse final : public PortLink {
         if (!later) {
             return its_server->call(REQUEST, {request});
         }
-        const auto opened = std::make_shared<OpenRequest>();
-        opened->client = client;
-        const std::uint32_t number = open(opened);
-        give(*its_server, number, request);
-        std::unique_lock<std::mutex> lock(mutex_);
-        over_.wait(lock, [&opened] { return opened->is_over; });
-        if (!opened->is_answered) {
+        const auto opened = std::make_shared<OpenRequest>(client, nullptr);
+        give(*its_server, requests_->open(opened), request);
+        if (!requests_->await(*opened)) {
             return {nothing_, code("internal_error")};
         }
         return {opened->response, code("ok")};
@@ -115,10 +102,7 @@ class RequestResponse final : public PortLink {
         if (!its_server) {
             return {none, code("internal_error")};
         }
-        const auto opened = std::make_shared<OpenRequest>();
-        opened->client = client;
-        opened->callback = callback;
-        const std::uint32_t number = open(opened);
+        const std::uint32_t number = requests_->open(std::make_shared<OpenRequest>(client, callback));
         CalledEnd* const called = its_server.get();  // its lane ends before it does
         its_server->call_later([this, called, number, request, later] {
             if (later) {
@@ -136,7 +120,7 @@ class RequestResponse final : public PortLink {
         try {
             given = its_server.call(REQUEST, {request});
         } catch (...) {
-            drop(number);
+            requests_->drop(number);
             throw;
         }
         respond(given.at(0), Value::integer(number));
@@ -147,22 +131,9 @@ class RequestResponse final : public PortLink {
         try {
             its_server.call(REQUEST, {request, Value::integer(number)});
         } catch (...) {
-            drop(number);
+            requests_->drop(number);
             throw;
         }
-    }
-
-    std::uint32_t open(const std::shared_ptr<OpenRequest>& opened) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        while (open_.count(++last_) != 0) {
-        }
-        open_[last_] = opened;
-        return last_;
-    }
-
-    void drop(std::uint32_t number) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        open_.erase(number);
     }
 
     /// The code for the server.
@@ -170,34 +141,24 @@ class RequestResponse final : public PortLink {
         if (const char* const failure = fault()) {
             return failure;
         }
-        std::shared_ptr<OpenRequest> opened;
-        {
-            std::lock_guard<std::mutex> lock(mutex_);
-            const auto found = open_.find(static_cast<std::uint32_t>(id.as_natural()));
-            if (found == open_.end()) {
-                return "internal_error";
-            }
-            opened = found->second;
-            open_.erase(found);
-            opened->response = response;
-            opened->is_answered = opened->is_over = true;
-            over_.notify_all();
+        const std::shared_ptr<OpenRequest> opened =
+            requests_->answer(static_cast<std::uint32_t>(id.as_natural()), response);
+        if (!opened) {
+            return "internal_error";
         }
         if (opened->callback) {
             CalledEnd* const client = opened->callback.get();
-            client->call_later([client, response, id] { client->call(RESPONSE, {response, id}); });
+            client->call_later([client, opened, id] { client->call(RESPONSE, {opened->response, id}); });
         }
         return "ok";
     }
 
     const BoundTypes types_;
     const Value nothing_;
-    mutable std::mutex mutex_;
-    std::condition_variable over_;  // a request was answered or dropped
+    const std::unique_ptr<OpenRequests> requests_ = Parts::open_requests();
+    std::mutex mutex_;
     std::shared_ptr<CalledEnd> server_;
     bool answers_later_ = false;
-    std::map<std::uint32_t, std::shared_ptr<OpenRequest>> open_;
-    std::uint32_t last_ = 0;
 };
 
 }  // namespace

@@ -12,6 +12,8 @@
 #include "containers/container_impl.hpp"
 #include "links/connectors.hpp"
 #include "links/port_link.hpp"
+#include "links/shared_values.hpp"
+#include "platform/parts.hpp"
 
 namespace lwucm {
 
@@ -28,14 +30,6 @@ InterfacePtr with_codes(std::vector<std::pair<const char*, std::vector<Parameter
     return std::make_shared<const Interface>(made);
 }
 
-/// What a reader reads, how often it is frozen, and what it has missed.
-struct View {
-    Value current;
-    Value missed;
-    int depth = 0;
-    bool has_missed = false;
-};
-
 class SharedData final : public PortLink {
   public:
     SharedData(std::shared_ptr<Shared> shared, const BoundTypes& types)
@@ -43,12 +37,12 @@ class SharedData final : public PortLink {
 
     void abandon(const Instance& instance) override {
         std::lock_guard<std::mutex> lock(mutex_);
-        for (auto writer = pending_.begin(); writer != pending_.end();) {
-            writer = writer->first.first == &instance ? pending_.erase(writer) : std::next(writer);
+        for (auto writer = drafts_.begin(); writer != drafts_.end();) {
+            writer = writer->first.first == &instance ? drafts_.erase(writer) : std::next(writer);
         }
         for (auto& reader : readers_) {
             if (&reader.first->instance() == &instance) {
-                reader.second = fresh();
+                reader.second = Parts::view(nothing_);
             }
         }
     }
@@ -72,7 +66,7 @@ class SharedData final : public PortLink {
     void join(const AttachedPort& port) override {
         if (port.called) {
             std::lock_guard<std::mutex> lock(mutex_);
-            readers_[port.called] = fresh();
+            readers_[port.called] = Parts::view(nothing_);
         }
     }
 
@@ -116,21 +110,24 @@ class SharedData final : public PortLink {
         return found->second;
     }
 
-    View fresh() const {
-        View view;
-        view.current = view.missed = nothing_;
-        return view;
+    /// `mutex_` is locked.
+    Draft& draft(const Writer& writer) {
+        std::unique_ptr<Draft>& found = drafts_[writer];
+        if (!found) {
+            found = Parts::draft();
+        }
+        return *found;
     }
 
     const char* write(const Writer& writer, const Value& value) {
         std::lock_guard<std::mutex> lock(mutex_);
-        pending_[writer] = value;
+        draft(writer).write(value);
         return "ok";
     }
 
     const char* cancel(const Writer& writer) {
         std::lock_guard<std::mutex> lock(mutex_);
-        return pending_.erase(writer) != 0 ? "ok" : "internal_error";
+        return draft(writer).cancel() ? "ok" : "internal_error";
     }
 
     const char* publish(const Writer& writer) {
@@ -138,13 +135,13 @@ class SharedData final : public PortLink {
             return failure;
         }
         std::lock_guard<std::mutex> lock(mutex_);
-        const auto found = pending_.find(writer);
-        if (found == pending_.end()) {
+        const Value* const published = draft(writer).value();
+        if (published == nullptr) {
             return "internal_error";
         }
+        const Value value = *published;
         for (auto& reader : readers_) {
             CalledEnd* const end = reader.first.get();  // its lane ends before it does
-            const Value value = found->second;
             end->call_later([this, end, value] { bring(*end, value); });
         }
         return "ok";
@@ -161,33 +158,26 @@ class SharedData final : public PortLink {
     bool take(const CalledEnd& reader, const Value& value) {
         std::lock_guard<std::mutex> lock(mutex_);
         View* const view = find(reader);
-        if (view == nullptr) {
-            return false;
-        }
-        if (view->depth > 0) {
-            view->missed = value;
-            view->has_missed = true;
-            return false;
-        }
-        view->current = value;
-        return true;
+        return view != nullptr && view->take(value);
     }
 
     const char* freeze(const std::shared_ptr<CalledEnd>& reader) {
         std::lock_guard<std::mutex> lock(mutex_);
-        ++readers_[reader].depth;
+        View* const view = find(*reader);
+        if (view == nullptr) {
+            return "internal_error";
+        }
+        view->freeze();
         return "ok";
     }
 
     const char* release(const std::shared_ptr<CalledEnd>& reader) {
         std::lock_guard<std::mutex> lock(mutex_);
-        View& view = readers_[reader];
-        if (view.depth == 0) {
+        View* const view = find(*reader);
+        if (view == nullptr || !view->release()) {
             return "internal_error";
         }
-        if (--view.depth == 0 && view.has_missed) {
-            view.current = view.missed;
-            view.has_missed = false;
+        if (view->catch_up()) {
             CalledEnd* const end = reader.get();
             end->call_later([end] { end->call(NOTIFY, {}); });
         }
@@ -196,13 +186,14 @@ class SharedData final : public PortLink {
 
     Values read(const std::shared_ptr<CalledEnd>& reader) {
         std::lock_guard<std::mutex> lock(mutex_);
-        return {readers_[reader].current, code("ok")};
+        View* const view = find(*reader);
+        return view != nullptr ? Values{view->read(), code("ok")} : Values{nothing_, code("internal_error")};
     }
 
     View* find(const CalledEnd& end) {
         for (auto& reader : readers_) {
             if (reader.first.get() == &end) {
-                return &reader.second;
+                return reader.second.get();
             }
         }
         return nullptr;
@@ -211,8 +202,8 @@ class SharedData final : public PortLink {
     const TypePtr type_;
     const Value nothing_;
     std::mutex mutex_;
-    std::map<Writer, Value> pending_;  // what was set; a second publication sends it again
-    std::map<std::shared_ptr<CalledEnd>, View> readers_;
+    std::map<Writer, std::unique_ptr<Draft>> drafts_;
+    std::map<std::shared_ptr<CalledEnd>, std::unique_ptr<View>> readers_;
 };
 
 }  // namespace

@@ -35,4 +35,10 @@ std::unique_ptr<Inbox> Parts::inbox(std::function<void(const Bytes&)> deliver, c
     return std::unique_ptr<Inbox>(new Inbox(std::move(deliver), options));
 }
 
+std::unique_ptr<OpenRequests> Parts::open_requests() { return std::unique_ptr<OpenRequests>(new OpenRequests); }
+
+std::unique_ptr<Draft> Parts::draft() { return std::unique_ptr<Draft>(new Draft); }
+
+std::unique_ptr<View> Parts::view(const Value& at_first) { return std::unique_ptr<View>(new View(at_first)); }
+
 }  // namespace lwucm

@@ -11,6 +11,8 @@
 #include "execution/self_execution.hpp"
 #include "execution/timers.hpp"
 #include "links/inbox.hpp"
+#include "links/open_requests.hpp"
+#include "links/shared_values.hpp"
 #include "lwucm/runtime.hpp"
 
 namespace lwucm {
@@ -28,6 +30,9 @@ struct Parts {
                                                    const Pacing& pacing);
     static std::shared_ptr<Timers> timers(std::shared_ptr<Guard> guard);
     static std::unique_ptr<Inbox> inbox(std::function<void(const Bytes&)> deliver, const Options& options);
+    static std::unique_ptr<OpenRequests> open_requests();
+    static std::unique_ptr<Draft> draft();
+    static std::unique_ptr<View> view(const Value& at_first);
 };
 
 }  // namespace lwucm
