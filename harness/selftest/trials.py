@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 import functools
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -212,10 +212,13 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
         with _being(subject), Driver(endpoint, how.seed, LIMITS) as driver:
             campaign = Campaign(driver, profile, (), statement)
             purposes = _purposes(subject, how, profile, statement)
-            derived = [purpose for purpose in purposes if purpose.of_dimensions]
             written = [purpose for purpose in purposes if not purpose.of_dimensions]
-            _check(ran, subject, campaign, written, may_end=how.quick)
-            _check(ran, subject, campaign, derived, may_end=not how.whole)
+            derived = [purpose for purpose in purposes if purpose.of_dimensions]
+            if how.quick:
+                _check(ran, subject, campaign, _likely_first(purposes, subject), may_end=True)
+            else:
+                _check(ran, subject, campaign, written, may_end=False)
+                _check(ran, subject, campaign, derived, may_end=not how.whole)
             ran.incidents = _incidents_of(campaign)
     except (HostUnavailable, WrongUse) as problem:
         ran.trouble = str(problem)
@@ -255,7 +258,17 @@ def _purposes(subject: Subject, how: Thoroughness, profile: str, statement: Stat
     """Those for what the subject breaks come first."""
     purposes = [p for p in purposes_for(statement, profile) if p.id.startswith(how.beginning)]
     own = purposes if how.whole else [p for p in purposes if p.clause.startswith(subject.clauses)]
-    return sorted(own, key=lambda purpose: not set(subject.breaks).intersection(purpose.requirements))
+    return sorted(own, key=lambda purpose: not _concerns(purpose, subject))
+
+
+def _likely_first(purposes: Iterable[TestPurpose], subject: Subject) -> list[TestPurpose]:
+    """``purposes``, those first that are likely to kill ``subject``, or take little time."""
+    return sorted(purposes, key=lambda p: (not _concerns(p, subject), len(p.scenarios)))
+
+
+def _concerns(purpose: TestPurpose, subject: Subject) -> bool:
+    """Whether ``purpose`` checks a requirement that ``subject`` breaks."""
+    return not set(subject.breaks).isdisjoint(purpose.requirements)
 
 
 def _statement(subject: Subject) -> Statement:

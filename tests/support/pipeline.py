@@ -1,4 +1,4 @@
-"""Runs the whole suite on a Python adapter in this process: for the tests of properties."""
+"""Runs profile container on a Python adapter in this process, and mutants as the self-test does: for the tests of properties."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ import re
 import resource
 import signal
 import time
+import zlib
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from types import FrameType
 from typing import NamedTuple
 
@@ -56,27 +57,24 @@ class Product:
     """A framework that has been through the container profile, under the readings that its vendor declares.
 
     ``failing`` are the failing requirements, each with an example, ``exercised`` those that were exercised at all,
-    ``readings`` what it makes of the freedoms of the text. One that ``is_wrong`` may crash, hang or keep files: it is
-    spared what is derived from dimensions, and what comes after a hang.
+    ``readings`` what it makes of the freedoms of the text. Of the scenarios that are derived from dimensions it runs
+    one of ``each``.
     """
 
-    def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}, is_wrong: bool = False) -> None:
+    def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}, each: int = 1) -> None:
         self.failing: dict[str, str] = {}
         self.readings: dict[str, set[str]] = {}
         self.exercised: set[str] = set()
         self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
         engine, stated = Engine(adapter), tuple(sorted(declared.items()))
-        for line, (name, scenario, is_derived) in _prepared(stated).items():
-            if is_wrong and is_derived:
+        first = zlib.crc32(adapter.__name__.encode()) % each
+        for number, (line, (name, scenario, is_derived)) in enumerate(_prepared(stated).items()):
+            if is_derived and number % each != first:
                 continue
-            try:
-                with bounded(scenario) if is_wrong else nullcontext():
-                    answer = engine.answer(line)
-            except TakesTooLong:
-                break  # in a run it would be an incident
+            answer = engine.answer(line)
             key = stated, line, hashlib.blake2b(_TIME.sub(b"", answer), digest_size=16).digest()
             if key not in _known:
-                _known[key] = _judged(stated, name, scenario, answer, is_wrong)
+                _known[key] = _judged(stated, name, scenario, answer)
             _tell(self.failing, name, _known[key].findings)
             self.exercised |= _known[key].exercised
             for option, values in _known[key].readings.items():
@@ -94,15 +92,9 @@ class Product:
         return failing
 
 
-def spilled(mutant: Mutant, failing: Mapping[str, str]) -> dict[str, str]:
-    """What ``mutant`` fails although it does not declare it."""
-    declared = {*mutant.requirements, *mutant.also}
-    return {requirement: example for requirement, example in failing.items() if requirement not in declared}
-
-
-def check_killed(mutant: Mutant) -> None:
+def check_killed(mutant: Mutant, how: Thoroughness = Thoroughness(quick=True)) -> None:  # noqa: B008 - a frozen value
     """Examine ``mutant`` as the self-test does: in a host, under the statement, with each finding compared."""
-    result = examine_mutant(all_mutants()[mutant.name], Thoroughness(quick=True))
+    result = examine_mutant(all_mutants()[mutant.name], how)
     assert result.is_killed, (result.survives, result.trouble, result.incidents)
     assert not result.spills
     assert not result.wrongly_said
@@ -112,11 +104,6 @@ def check_wording(scenario: Scenario, findings: Iterable[Finding]) -> None:
     """Each finding must expect something else than what was observed, and name what it is about."""
     for finding in findings:
         assert not wrongly_said(scenario, finding), finding
-
-
-def failing_requirements(mutant: Mutant) -> dict[str, str]:
-    """Failing requirements of ``mutant``, each with an example: scenario, expected, observed."""
-    return Product(mutant.adapter, mutant.readings, is_wrong=True).failing
 
 
 def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | list[Finding]) -> None:
@@ -180,14 +167,10 @@ def _this_process() -> psutil.Process:
     return psutil.Process()
 
 
-def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes, is_wrong: bool) -> Judged:
+def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes) -> Judged:
     traced = from_host_decoder().decode(answer)
-    if is_wrong and not isinstance(traced, Traced):  # an incident, in a run
-        return Judged((), {}, frozenset())
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, traced.stuck)
-    if problem is not None and is_wrong:  # likewise
-        return Judged((), {}, frozenset())
     assert problem is None, (name, problem)
     verdicts = _monitor_of(declared).judge(scenario, traced.events)
     check_wording(scenario, verdicts.findings)

@@ -8,10 +8,11 @@ import msgspec
 import pytest
 from pipeline import Product
 
-from ucm_cts.adapters.mutants.python.subjects import CONTAINER, Variant, variants_of
+from ucm_cts.adapters.mutants.python.subjects import CONTAINER, VARIANTS, Variant, variants_of
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue.requirements import load_options, load_requirements
 from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.selftest.trials import Thoroughness, all_variants, examine_variant
 from ucm_cts.harness.statement.applicability import why_not
 
 pytestmark = pytest.mark.slow
@@ -19,14 +20,24 @@ pytestmark = pytest.mark.slow
 REQUIREMENTS = {requirement.id: requirement for requirement in load_requirements()}
 
 
+EACH = 4
+"""Of the scenarios that are derived from dimensions a variant runs one of so many; in a self-test, all."""
+
+
 @functools.cache
 def reference() -> Product:
-    return Product(ReferenceAdapter)
+    return Product(ReferenceAdapter, each=EACH)
+
+
+@pytest.mark.parametrize("name", sorted(VARIANTS.keys() - variants_of(CONTAINER).keys()))
+def test_conformant_variant_is_not_failed(name: str) -> None:
+    result = examine_variant(all_variants()[name], Thoroughness())
+    assert (result.failed, result.incidents, result.trouble) == ((), (), "")
 
 
 @pytest.mark.parametrize("variant", variants_of(CONTAINER).values(), ids=variants_of(CONTAINER).keys())
-def test_conformant_variant_is_not_failed(variant: Variant) -> None:
-    product = Product(variant.adapter, variant.readings)
+def test_conformant_life_cycle_is_not_failed(variant: Variant) -> None:
+    product = Product(variant.adapter, variant.readings, EACH)
     assert product.failing == {}
     default = default_statement()
     stated = msgspec.structs.replace(default, readings=default.readings | variant.readings)
@@ -45,7 +56,7 @@ OBSERVED = {option for option, values in load_options().items() if "observed" in
     "name", [name for name, variant in variants_of(CONTAINER).items() if OBSERVED >= variant.readings.keys() != set()]
 )
 def test_variant_without_declarations_is_not_failed(name: str) -> None:
-    assert Product(variants_of(CONTAINER)[name].adapter).failing == {}
+    assert Product(variants_of(CONTAINER)[name].adapter, each=EACH).failing == {}
 
 
 BELIED = {
