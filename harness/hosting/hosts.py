@@ -61,6 +61,9 @@ SECONDS_A_STEP = 0.02
 LONG = 50
 """The number of steps that fit into the usual time."""
 
+COMPUTED = 10
+"""Threads of ``Stress`` compute as long as it lasts: on a busy machine, and in virtual time, that may take so many times longer."""
+
 LONGEST = 4
 """A run that sends its events as they happen may take so many times what it is allowed, as long as they come."""
 
@@ -359,7 +362,7 @@ def waits(scenario: s.Scenario) -> float:
     for step in scenario.steps:
         threads = threads or step.thread is not None
         waiting += step.waits
-        milliseconds += duration(step)[1]
+        milliseconds += duration(step)[1] * (COMPUTED if isinstance(step, s.Stress) else 1)
     for declaration in scenario.components.values():
         for actions in declaration.plan.values():
             waiting += sum(isinstance(action, s.HoldAtGate) for action in actions)
