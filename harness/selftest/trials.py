@@ -91,7 +91,7 @@ class Thoroughness:
 
     ``seed``: of the run.
     ``whole``: the whole profile instead of the subject's own clauses, for a mutant that is killed, too.
-    ``quick``: end when a mutant is killed; otherwise it is spared what is derived from dimensions then.
+    ``quick``: begin with what is likely to kill a mutant, and end when it is killed; otherwise it is spared what is derived from dimensions then.
     ``beginning``: only purposes whose names begin so.
     ``real_time``: subjects in Python, and native ones of profile extensions, run in real time instead of virtual time.
     """
@@ -212,11 +212,11 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
         with _being(subject), Driver(endpoint, how.seed, LIMITS) as driver:
             campaign = Campaign(driver, profile, (), statement)
             purposes = _purposes(subject, how, profile, statement)
-            written = [purpose for purpose in purposes if not purpose.of_dimensions]
-            derived = [purpose for purpose in purposes if purpose.of_dimensions]
             if how.quick:
                 _check(ran, subject, campaign, _likely_first(purposes, subject), may_end=True)
             else:
+                written = [purpose for purpose in purposes if not purpose.of_dimensions]
+                derived = [purpose for purpose in purposes if purpose.of_dimensions]
                 _check(ran, subject, campaign, written, may_end=False)
                 _check(ran, subject, campaign, derived, may_end=not how.whole)
             ran.incidents = _incidents_of(campaign)
