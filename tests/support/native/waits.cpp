@@ -265,16 +265,16 @@ void signals() {
     sem_init(&semaphore, 0, 0);
     static std::atomic<int> came;
     std::atomic<bool> is_done{false};
+    struct sigaction action = {};
+    action.sa_handler = [](int) {
+        timespec time;
+        clock_gettime(CLOCK_MONOTONIC, &time);
+        sem_post(&semaphore);
+        ++came;
+    };
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGUSR1, &action, nullptr);
     std::thread interrupted([&] {
-        struct sigaction action = {};
-        action.sa_handler = [](int) {
-            timespec time;
-            clock_gettime(CLOCK_MONOTONIC, &time);
-            sem_post(&semaphore);
-            ++came;
-        };
-        action.sa_flags = SA_RESTART;
-        sigaction(SIGUSR1, &action, nullptr);
         std::condition_variable changed;
         while (!is_done) {
             changed.notify_all();
