@@ -474,7 +474,8 @@ def test_cpp_guide_with_a_plain_compiler(vendor: Path) -> None:
     """Both adapters, one compiler call beside the other."""
     acme, _sanitized = commands("g++ -std")
     beans = acme.replace("acme_adapter.cpp -lacme", "beans_adapter.cpp -o beans")
-    framework = f"g++ -std=c++11 -I {FRAMEWORK}/src -c {FRAMEWORK}/src/*/*.cpp; ar rc libacme.a *.o"
+    sources = f"""printf '#include "%s"\\n' {FRAMEWORK}/src/*/*.cpp > acme.cpp"""  # at once, in a tenth of the time
+    framework = f"{sources}; g++ -std=c++11 -I {FRAMEWORK}/src -c acme.cpp; ar rc libacme.a acme.o"
     shell(f"{beans} & {framework}; {acme}; mkdir build; mv a.out build/acme_adapter; wait $!")
     assert "ucm-cts run build/acme_adapter" in commands("ucm-cts run")
     outcome = ucm_cts("run", "build/acme_adapter")
