@@ -8,7 +8,6 @@ import re
 import resource
 import signal
 import time
-import zlib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from types import FrameType
@@ -57,20 +56,16 @@ class Product:
     """A framework that has been through the container profile, under the readings that its vendor declares.
 
     ``failing`` are the failing requirements, each with an example, ``exercised`` those that were exercised at all,
-    ``readings`` what it makes of the freedoms of the text. Of the scenarios that are derived from dimensions it runs
-    one of ``each``.
+    ``readings`` what it makes of the freedoms of the text.
     """
 
-    def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}, each: int = 1) -> None:
+    def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}) -> None:
         self.failing: dict[str, str] = {}
         self.readings: dict[str, set[str]] = {}
         self.exercised: set[str] = set()
         self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
         engine, stated = Engine(adapter), tuple(sorted(declared.items()))
-        first = zlib.crc32(adapter.__name__.encode()) % each
-        for number, (line, (name, scenario, is_derived)) in enumerate(_prepared(stated).items()):
-            if is_derived and number % each != first:
-                continue
+        for line, (name, scenario) in _prepared(stated).items():
             answer = engine.answer(line)
             key = stated, line, hashlib.blake2b(_TIME.sub(b"", answer), digest_size=16).digest()
             if key not in _known:
@@ -112,14 +107,14 @@ def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | li
 
 
 @functools.cache
-def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario, bool]]:
-    """The suite's scenarios by what a host is sent, and whether they are derived from dimensions; those that several test purposes share are there once."""
+def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario]]:
+    """The suite's scenarios by what a host is sent; those that several test purposes share are there once."""
     disguise, payloads = Disguise(1, "{port}_{element}"), Payloads(1)
-    prepared: dict[bytes, tuple[str, Scenario, bool]] = {}
+    prepared: dict[bytes, tuple[str, Scenario]] = {}
     for purpose in load_purposes("container", *map("=".join, declared)):
         for name, plain in purpose.scenarios:
             scenario = disguise.scenario(payloads.deal(plain))
-            prepared.setdefault(encode(Run(0, scenario)), (name, scenario, purpose.of_dimensions))
+            prepared.setdefault(encode(Run(0, scenario)), (name, scenario))
     return prepared
 
 

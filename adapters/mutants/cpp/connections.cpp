@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include "registry.hpp"
 
@@ -229,8 +230,8 @@ class ReadsOnce final : public View {
     const Value at_first_;
 };
 const bool n = breaks<ReadsOnce>("forgets_data_that_was_read", {"R-10.4.2-06"}, "A value can be read once.",
-                                 {"R-10.4.2.2-07", "R-10.4.2-08", "R-10.4.2-03", "R-10.4.2-02", "R-10.4.2.2-06", "R-10.4.2-05", "R-10.4.2.2-17",
-                                  "R-10.4.2.2-12", "R-10.4.2-01", "R-10.4.2.2-09"});
+                                 {"R-10.4.2.2-07", "R-10.4.2-08", "R-10.4.2-03", "R-10.4.2-02", "R-10.4.2.2-06",
+                                  "R-10.4.2-05", "R-10.4.2.2-17", "R-10.4.2.2-12", "R-10.4.2-01", "R-10.4.2.2-09"});
 
 class GoesBack final : public View {
   public:

@@ -20,13 +20,9 @@ pytestmark = pytest.mark.slow
 REQUIREMENTS = {requirement.id: requirement for requirement in load_requirements()}
 
 
-EACH = 4
-"""Of the scenarios that are derived from dimensions a variant runs one of so many; in a self-test, all."""
-
-
 @functools.cache
 def reference() -> Product:
-    return Product(ReferenceAdapter, each=EACH)
+    return Product(ReferenceAdapter)
 
 
 @pytest.mark.parametrize("name", sorted(VARIANTS.keys() - variants_of(CONTAINER).keys()))
@@ -37,7 +33,7 @@ def test_conformant_variant_is_not_failed(name: str) -> None:
 
 @pytest.mark.parametrize("variant", variants_of(CONTAINER).values(), ids=variants_of(CONTAINER).keys())
 def test_conformant_life_cycle_is_not_failed(variant: Variant) -> None:
-    product = Product(variant.adapter, variant.readings, EACH)
+    product = Product(variant.adapter, variant.readings)
     assert product.failing == {}
     default = default_statement()
     stated = msgspec.structs.replace(default, readings=default.readings | variant.readings)
@@ -56,7 +52,7 @@ OBSERVED = {option for option, values in load_options().items() if "observed" in
     "name", [name for name, variant in variants_of(CONTAINER).items() if OBSERVED >= variant.readings.keys() != set()]
 )
 def test_variant_without_declarations_is_not_failed(name: str) -> None:
-    assert Product(variants_of(CONTAINER)[name].adapter, each=EACH).failing == {}
+    assert Product(variants_of(CONTAINER)[name].adapter).failing == {}
 
 
 BELIED = {
