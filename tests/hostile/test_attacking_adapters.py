@@ -116,7 +116,7 @@ IMPORTS: dict[str, tuple[str, str]] = {
         f"'evil:Evil' writes to {CONTROL}",
     ),
     "gives a reason that is none": ("os.write(control(), b'failed {\\n')", f"'evil:Evil' writes to {CONTROL}"),
-    "closes all descriptors": ("os.closerange(3, 64)", f"'evil:Evil' has closed {CONTROL}"),
+    "closes all descriptors": ("os.closerange(3, control() + 1)", f"'evil:Evil' has closed {CONTROL}"),
     "leaves": ("os._exit(7)", "'evil:Evil' ended while it was loaded: exit status 7"),
     "is killed": ("os.kill(os.getpid(), 9)", "'evil:Evil' ended while it was loaded: SIGKILL"),
     "is interrupted": ("raise KeyboardInterrupt", "'evil:Evil' ended while it was loaded: exit status 0"),
