@@ -19,7 +19,7 @@ from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.exploration import Exploration, Replayed
 from ucm_cts.harness.exploring.exploration import Progress as HowFar
 from ucm_cts.harness.exploring.memory import Memory, open_databases
-from ucm_cts.harness.exploring.printing import FILE, exploration_file, found_text, is_found, known_text
+from ucm_cts.harness.exploring.printing import FILE, exploration_file, found_text, is_found, known_text, seen_text
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.report.write import FAILURE_FILES, failure_files, keep_files, report_folder
 from ucm_cts.harness.statement.files import check_subject, stated_by
@@ -121,7 +121,11 @@ def _explore(
             if known or memory.unreadable:
                 console.print(known_text(known, memory.unreadable))
             began = time.monotonic()
+            seen = len(exploration.failures)
             for far in exploration.explore():
+                for failure in exploration.failures[seen:]:
+                    console.print(seen_text(*failure))
+                seen = far.failures
                 spent = budget.spent(far.scenarios, time.monotonic() - began)
                 _show(progress, task, far, spent)
                 if spent >= budget.amount:

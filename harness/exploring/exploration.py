@@ -100,9 +100,10 @@ class Exploration:
         self._events = Events()
         self._rows: set[str] = set()
         self._new: list[tuple[int, Scenario]] = []
-        self._causes: dict[Cause, tuple[Finding, Execution]] = {}
+        self._failures: list[tuple[Finding | None, Execution]] = []
+        self._causes: set[Cause] = set()
         self._incidents: set[IncidentCause] = set()
-        self._unexplained: dict[IncidentCause, tuple[None, Execution]] = {}
+        self._unexplained: set[IncidentCause] = set()
         self._run = 0
         claimed = self._statement.extensions if "extensions" in PARTS[campaign.profile] else ()
         self._parts = [part for part in WRITTEN_PARTS if part in claimed]
@@ -134,8 +135,7 @@ class Exploration:
         in_vain = 0
         for checked in self._check(self._purposes()):
             self._run += 1
-            failures = len(self._causes) + len(self._unexplained)
-            yield Progress(self._run, len(self._rows), len(self._all_rows), len(self._events), failures)
+            yield Progress(self._run, len(self._rows), len(self._all_rows), len(self._events), len(self._failures))
             kinds = {execution.incident.kind for _, execution in checked.failures if execution.incident}
             in_vain = in_vain + 1 if "untried" in kinds else 0
             if in_vain >= IN_VAIN or "unreachable" in kinds:
@@ -144,20 +144,29 @@ class Exploration:
     @property
     def failures(self) -> list[tuple[Finding | None, Execution]]:
         """The first failure of each cause so far, remembered ones included; of an incident that explains none, no finding."""
-        return [*self._causes.values(), *self._unexplained.values()]
+        return list(self._failures)
 
     def _check(self, purposes: Iterator[TestPurpose]) -> Iterator[Checked]:
         for checked in self._campaign.check(purposes, self._watch):
             self._campaign.checked.pop()  # an exploration has no end
             for finding, execution in checked.failures:
-                if finding is not None:
-                    self._causes.setdefault(cause_of(finding), (finding, execution))
+                if finding is not None and cause_of(finding) not in self._causes:
+                    self._causes.add(cause_of(finding))
+                    self._failures.append((finding, execution))
+                    self._remember(Remembered.of_finding(finding, execution.scenario))
                 incident = execution.incident
                 if incident is not None and incident.kind != "untried" and not is_waiting(execution):
-                    self._incidents.add(cause_of_incident(execution))
-                    if finding is None:
-                        self._unexplained.setdefault(cause_of_incident(execution), (None, execution))
+                    cause = cause_of_incident(execution)
+                    self._incidents.add(cause)
+                    if finding is None and cause not in self._unexplained:
+                        self._unexplained.add(cause)
+                        self._failures.append((None, execution))
             yield checked
+
+    def _remember(self, failure: Remembered) -> None:
+        """Keep a failure at once: an exploration takes hours, and may be killed before its end."""
+        if self._memory is not None:
+            self._memory.remember_first(failure)
 
     def _purposes(self) -> Iterator[TestPurpose]:
         for number in count(1):

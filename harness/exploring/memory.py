@@ -109,6 +109,11 @@ class Memory:
             if entry is not None and entry.identity == failure.identity and known != value:
                 self._database.delete(self._key, known)
 
+    def remember_first(self, failure: Remembered) -> None:
+        """Keep ``failure`` unless one of the same cause is kept."""
+        if all(entry is None or entry.identity != failure.identity for _, entry in self._entries()):
+            self._database.save(self._key, msgspec.json.encode(failure))
+
     def remember_all(self, report: FrameworkReport, named: tuple[str, ...] = ("",)) -> None:
         """Keep the failures of ``report`` whose scenarios have names that begin with one of ``named``."""
         for result in report.requirements:

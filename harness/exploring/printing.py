@@ -20,6 +20,7 @@ from ucm_cts.harness.results.failures import file_name, incident_file, replay_co
 from ucm_cts.harness.results.foreign import clean_report, one_line
 from ucm_cts.harness.results.incident_causes import cause_of_incident, during
 from ucm_cts.harness.results.incidents import is_waiting
+from ucm_cts.reference_models.findings import Finding
 
 FILE = "exploration.json"
 
@@ -182,6 +183,16 @@ def _name(one: Remembered) -> str:
 def _observed(replayed: Replayed) -> str:
     incident = replayed.remembered.incident
     return replayed.remembered.observed + (during(incident) if incident is not None else "")
+
+
+def seen_text(finding: Finding | None, execution: v.Execution) -> RenderableType:
+    """One line about a failure when it is first seen, before it is confirmed and shortened."""
+    incident = execution.incident
+    if finding is None:
+        what = f"{incident.kind}: {incident.detail}" if incident is not None else ""
+    else:
+        what = f"{finding.requirement}: expected {finding.expected}; observed {finding.observed}"
+    return cut(Text.assemble(("seen  ", "yellow"), one_line(f"in '{execution.name}': {what}", 400)))
 
 
 def found_text(report: v.FrameworkReport, far: Progress, out: Path) -> RenderableType:

@@ -69,6 +69,17 @@ def first_failing(seed: int) -> tuple[int, list[bytes]]:
         return next(far.scenarios for far in exploring.explore() if far.failures), drawn
 
 
+def test_a_failure_is_remembered_as_soon_as_it_is_seen() -> None:
+    database = InMemoryExampleDatabase()
+    with Driver(locate(SUBJECT, in_process=True), 5) as driver:
+        exploring = Exploration(Campaign(driver, "container"), 5, Memory(database, "", "container"))
+        for far in exploring.explore():
+            if far.failures:
+                break
+    (kept,) = Memory(database, "", "container").recall()
+    assert kept.requirement == REQUIREMENT
+
+
 def test_a_seed_repeats_everything() -> None:
     number, drawn = first_failing(5)
     assert number <= 50
@@ -132,6 +143,7 @@ def test_incidents_are_reported_once_remembered_and_tried_first(here: Path) -> N
     subject = "hostile.failing:DiesAtOnce"
     first = ucm_cts("explore", subject, *arguments, "4scenarios", "--out", "first")
     assert (first.status, first.err) == (1, "")
+    assert "seen  in 'explored 1': exit: exit status 7" in first.out
     assert "✗ 0 causes of failure, 1 of incidents" in first.out
     assert "⚡ exit  4 times  failures/incident-1.json  exit status 7" in first.out
     (mishap,) = exploration(here / "first")["incidents"]
