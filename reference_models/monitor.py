@@ -324,6 +324,8 @@ class _TraceReader:
         newest = [calls[-1] for calls in self.calls if calls]
         waiting = [call for call in newest if call.value == event.value and not call.is_of_method]
         waiting = [call for call in waiting if not call.entries] or waiting
+        if len(waiting) > 1:
+            waiting = [call for call in waiting if call.is_meant_for(event)] or waiting
         return waiting[-1] if waiting else own
 
     def request(self, event: t.Request) -> None:

@@ -13,6 +13,7 @@ from functools import partial
 from itertools import count
 from typing import Literal
 
+from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
@@ -73,6 +74,9 @@ class Progress:
     events: int
     failures: int
 
+
+_CALLED_AGAIN = (s.INDEX_TIMERS, s.OBJECT_TIMERS, s.PERIODIC_SELF_EXECUTING)
+"""Policies by which a component is called again and again."""
 
 Fate = Literal["still there", "no longer shown", "unknown"]
 """The fate of a remembered failure; None if an incident or the end of the time came first."""
@@ -161,6 +165,8 @@ class Exploration:
                     if finding is None and cause not in self._unexplained:
                         self._unexplained.add(cause)
                         self._failures.append((None, execution))
+                        if cause.kind != "unreachable":
+                            self._remember(Remembered.of_incident(execution))
             yield checked
 
     def _remember(self, failure: Remembered) -> None:
@@ -203,8 +209,15 @@ class Exploration:
 
     def _watch(self, answer: Answer, verdicts: Verdicts) -> None:
         self._rows |= verdicts.rows.keys()
-        if self._events.are_new(answer.disguised, answer.trace) and not answer.scenario.interfaces:
+        may_change = not answer.scenario.interfaces and not _is_called_again(answer.scenario)
+        if self._events.are_new(answer.disguised, answer.trace) and may_change:
             self._new.append((self._run, answer.scenario))
+
+
+def _is_called_again(scenario: Scenario) -> bool:
+    """Whether components are called without end: a call that a change adds could wait behind ever more of these calls."""
+    policies = (policy.definition for one in scenario.components.values() for policy in one.policies)
+    return any(definition in _CALLED_AGAIN for definition in policies)
 
 
 def _is_decided(one: Remembered, checked: Checked) -> bool:

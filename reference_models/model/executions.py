@@ -97,6 +97,12 @@ class BusinessCall(Changing):
             return other.step is not None and (other.callee, other.port) == (self.callee, self.port)
         return other.step is None and self.behind is not None and other.behind == self.behind
 
+    def is_meant_for(self, entry: Enter) -> bool:
+        """Does it call the instance and port element that ``entry`` enters, as far as that is known?"""
+        if self.step is not None:
+            return self.callee is not None and (self.callee.body, self.port) == (entry.body, entry.port)
+        return self.behind is not None and (*entry.body, entry.port) in self.behind.targets
+
     def claim(self, waiting: Iterable[BusinessCall], value: object, raised: bool) -> tuple[BusinessCall, Enter] | None:
         """It comes back with ``value``, or with an exception, and seems to have entered no body: if a call like it, which is still
         ``waiting``, was taken for it at an entry that ended so, the entry is its own. Returns the other call and the entry.

@@ -183,8 +183,13 @@ def missed_runs(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 
 def _tick_after(phase: PacedPhase, moment: int) -> int:
-    """The earliest instant of the grid that may follow ``moment``."""
-    number = -((phase.first(latest=True) - moment) // phase.period)
+    """The earliest instant of the grid that may follow ``moment``.
+
+    A grid may begin when a thread does, later than its first instant: by no more than any run on it came later.
+    """
+    first = phase.first(latest=True)
+    behind = min(max(0, run.t - first) % phase.period for run in phase.executions[: phase.overrun + 1])
+    number = -((first + behind - moment) // phase.period)
     return phase.first(latest=False) + max(0, number) * phase.period
 
 
