@@ -109,6 +109,14 @@ class leaves_out_missed_runs(Pace):
         return max(number + 1, self.tick_from(time.monotonic()))
 
 
+@variant_of(*PACED, readings={"period-overrun": "skipped"})
+class begins_its_grid_with_its_thread(leaves_out_missed_runs):
+    """The instants count from when a thread has begun, a little after start."""
+
+    def __init__(self, policy: s.Policy, origin: float) -> None:
+        super().__init__(policy, origin + 0.003)
+
+
 @variant_of(*PACED, readings={"period-overrun": "merged"})
 class merges_missed_runs(Pace):
     """One run follows at once for all instants that have passed during a run."""
