@@ -186,13 +186,15 @@ def _observed(replayed: Replayed) -> str:
 
 
 def seen_text(finding: Finding | None, execution: v.Execution) -> RenderableType:
-    """One line about a failure when it is first seen, before it is confirmed and shortened."""
-    incident = execution.incident
-    if finding is None:
-        what = f"{incident.kind}: {incident.detail}" if incident is not None else ""
-    else:
-        what = f"{finding.requirement}: expected {finding.expected}; observed {finding.observed}"
-    return cut(Text.assemble(("seen  ", "yellow"), one_line(f"in '{execution.name}': {what}", 400)))
+    """A failure when it is first seen, before it is confirmed and shortened."""
+    head = Text.assemble(("seen  ", "yellow"), f"in '{execution.name}'")
+    lines = [head]
+    if finding is not None:
+        head.append(f"  {finding.requirement}", "bold")
+        lines += _lines_of_finding(finding.expected, finding.observed)
+    elif execution.incident is not None:
+        head.append(f"  {execution.incident.kind}: {one_line(execution.incident.detail, 160)}")
+    return Group(*map(cut, lines))
 
 
 def found_text(report: v.FrameworkReport, far: Progress, out: Path) -> RenderableType:
@@ -247,8 +249,14 @@ def _lines_of(failure: Failure, report: v.FrameworkReport, out: Path) -> list[Te
     replay = f"ucm-cts replay {shlex.quote(str(out / failure.file))} {shlex.quote(one_line(report.adapter))}{statement}"
     return [
         cut(Text.assemble(("✗ ", "red"), (failure.requirement, "bold"), f"  {one_line(failure.title)}")),
-        cut(Text.assemble(("  expected  ", "green"), one_line(failure.expected, 300))),
-        cut(Text.assemble(("  observed  ", "red"), one_line(failure.observed, 300))),
+        *map(cut, _lines_of_finding(failure.expected, failure.observed)),
         cut(Text.assemble(("  shortest  ", "dim"), f"{len(failure.steps)} steps: {steps}")),
         Text.assemble(("  replay    ", "dim"), replay, overflow="fold"),
+    ]
+
+
+def _lines_of_finding(expected: str, observed: str) -> list[Text]:
+    return [
+        Text.assemble(("  expected  ", "green"), one_line(expected, 300)),
+        Text.assemble(("  observed  ", "red"), one_line(observed, 300)),
     ]

@@ -106,7 +106,7 @@ def _timer(
     if delay is None:
         return None
     is_in_startup = call.request.n < phase.of.started.n
-    return Timer(phase, call, number, delay, rate, is_in_startup, goes_on=goes_on_after_exceptions(runtime))
+    return Timer(phase, call, number, delay, rate, is_in_startup, goes_on=goes_on_after_exceptions(runtime, "index"))
 
 
 def _take_callback(

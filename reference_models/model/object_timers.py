@@ -11,6 +11,7 @@ from ucm_cts.reference_models.model.phases import phases_of
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.service_policies import policies_of, policy_elements
 from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase, note_later_calls, span_of
+from ucm_cts.reference_models.model.timer_options import option_of
 from ucm_cts.reference_models.model.timer_times import earliest, goes_on_after_exceptions
 
 _STARTS = (s.SCHEDULE_ONCE, s.SCHEDULE_REPEATED)
@@ -99,7 +100,7 @@ class _Reading:
         before = [t for t in made if t.handler == callback.enter.port and t.call.request.n < callback.n]
         here = [t for t in before if t.phase is phase]
         earlier = [t for t in before if t.phase is not phase and t.is_started and self._may_go_on(t, phase)]
-        if here and not self.runtime.ics.permits("timers-at-stop", "resumed"):
+        if here and not self.runtime.ics.permits(option_of(self.runtime, "object", "timers-at-stop"), "resumed"):
             earlier = []
         if not here and not earlier:
             return
@@ -187,7 +188,7 @@ def _timer(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall, number
         rate if is_repeated else None,
         call.request.n < phase.of.started.n,
         "object",
-        goes_on_after_exceptions(runtime),
+        goes_on_after_exceptions(runtime, "object"),
         call.request.handler or "",
         rounds if isinstance(rounds, int) else None,
     )

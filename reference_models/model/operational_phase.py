@@ -17,7 +17,7 @@ class Phase:
     ``start``: the start that led to it, and returned.
     ``startup``, ``started``: how on_startup was entered and left.
     ``until``, ``ended_at``: the event that may end it (``n``; later than all if there is none), and when that was (``t``).
-    ``closed``: the event by which the operation returned that ended it; later than all if none did.
+    ``closed``: the event by which the operation returned that ended it, or the next phase began; later than all if none did.
     """
 
     member: Member

@@ -47,16 +47,22 @@ def noticed(runtime: ObservedRuntime, due: int | None) -> tuple[int, ...]:
 
 
 def end_of_phase(runtime: ObservedRuntime, member: Member, startup: Enter) -> int:
-    """The event by which the operation returned that ended the phase; later than all if none did."""
+    """The event by which the operation returned that ended the phase, or the next phase began; later than all if none did.
+
+    An operation that raised may have ended it all the same.
+    """
+    again = min(
+        (enter.n for enter, _ in runtime.executions.startups[member.body] if enter.n > startup.n), default=NEVER
+    )
     for operation in runtime.interactions.changes:
         step, end = operation.step, operation.end
-        if operation.begin.n < startup.n or not isinstance(end, Return):
+        if operation.begin.n < startup.n or not isinstance(end, Return) or end.n > again:
             continue
         of_container = isinstance(step, s.Stop | s.RemoveContainer) and operation.container is member.container
         of_member = isinstance(step, s.RemoveComponent) and operation.member is member
         if of_container or of_member or isinstance(step, s.Destroy):
             return end.n
-    return NEVER
+    return again
 
 
 def _start_around(runtime: ObservedRuntime, enter: Enter) -> Operation | None:

@@ -123,14 +123,15 @@ def _completed(
         values, source = tuple(_distinct(v for o in own if (v := written(o)) is not None)), "repeated"
     is_sure = all(source == "written" for source, _ in outcomes) and all(map(is_ok, (*writes, bare.call)))
     first = writes[0].request.n if writes else own[-1].request.n if own else bare.since
+    is_changed = any(o.overlaps(first, bare.over) for o in changes(runtime, found.link))
+    if is_changed and runtime.ics.permits("publish-twice", "again"):  # what was written may be lost
+        _, earlier = _set_by(own[: len(own) - len(writes)])
+        values = tuple(_distinct((*values, *((earlier,) if earlier is not None else ()))))
     return replace(
         bare,
         values=values,
         source=source,
-        is_sure=is_sure
-        and source == "written"
-        and not is_disturbed(runtime, bare.call)
-        and not any(o.overlaps(first, bare.over) for o in changes(runtime, found.link)),
+        is_sure=is_sure and source == "written" and not is_disturbed(runtime, bare.call) and not is_changed,
         writes=writes,
         cancelled=_cancelled(own),
         crossed=tuple(

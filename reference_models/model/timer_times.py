@@ -10,7 +10,8 @@ from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.service_policies import has_timers
-from ucm_cts.reference_models.model.timer_events import SECOND, Timer, TimerCallback
+from ucm_cts.reference_models.model.timer_events import SECOND, Kind, Timer, TimerCallback
+from ucm_cts.reference_models.model.timer_options import reading_of
 
 CLOCKS = {"local": LOCAL, "synchronized": SYNCHRONIZED}
 """The readings of ``absolute-clock``, with the method that reads each clock."""
@@ -39,15 +40,15 @@ def latest(runtime: ObservedRuntime, timer: Timer, number: int) -> int | None:
     begun = _begun(runtime, timer)
     if begun is None:
         return None
-    chained = number if runtime.ics.reading("timer-anchor") == "chained" else 0
+    chained = number if reading_of(runtime, timer.kind, "timer-anchor") == "chained" else 0
     due = begun[1] + _after(runtime, timer, number) + (chained + 1) * lateness(runtime)
     end = timer.phase.of.start.end
     return max(due, end.t + lateness(runtime)) if timer.is_in_startup and end is not None else due
 
 
-def goes_on_after_exceptions(runtime: ObservedRuntime) -> bool:
-    """Do timers that repeat go on when a callback of theirs raises, as their vendor declares?"""
-    return runtime.ics.reading("callback-exception") == "continues"
+def goes_on_after_exceptions(runtime: ObservedRuntime, kind: Kind) -> bool:
+    """Do timers of ``kind`` that repeat go on when a callback of theirs raises, as their vendor declares?"""
+    return reading_of(runtime, kind, "callback-exception") == "continues"
 
 
 def last_expiry(runtime: ObservedRuntime, timer: Timer) -> int | None:

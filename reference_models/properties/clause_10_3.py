@@ -13,6 +13,7 @@ from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member, has_meaningless_values, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, has_timers, policies_of, policy_elements
 from ucm_cts.reference_models.model.timer_events import Kind, Timer, TimerCallback
+from ucm_cts.reference_models.model.timer_options import option_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 OfKind = dict[Kind, str]
@@ -59,7 +60,7 @@ def _started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProg
             has_both = len(policies_of(member.declaration, *_WORDS)) == len(_WORDS)
             if has_both or any(not has_timers(other.declaration, definition) for other in others):
                 yield check.kept(_SEVERAL[definition])
-        elif number and not (yield from takes(runtime, "second-timer-policy", "separate")):
+        elif number and not (yield from takes(runtime, _second(runtime, definition), "separate")):
             yield check.fail(
                 "second policy",
                 expected=f"'{member.lane}', which has two policies for {words}, is refused, as declared",
@@ -67,6 +68,11 @@ def _started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProg
                 event=ongoing.end,
                 requirement=_SEVERAL[definition],
             )
+
+
+def _second(runtime: ObservedRuntime, definition: str) -> str:
+    """The option that says whether a component may have two policies with this ``definition``."""
+    return option_of(runtime, "object" if definition == s.OBJECT_TIMERS else "index", "second-timer-policy")
 
 
 def _refused(
@@ -80,7 +86,7 @@ def _refused(
         return
     twice = [one for one, number in timers.items() if number > 1]
     if twice:
-        if not (yield from takes(runtime, "second-timer-policy", "refused")):
+        if not (yield from takes(runtime, _second(runtime, twice[0]), "refused")):
             expected = f"a component with two policies for {_WORDS[twice[0]]} is added and started, as declared"
             requirement = _SEVERAL[twice[0]]
             yield check.refused(operation, end, expected=expected, cause="second policy", requirement=requirement)

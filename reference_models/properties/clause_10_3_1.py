@@ -14,6 +14,7 @@ from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.object_timers import object_timer_phases, told_by
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.timer_events import Timer, TimerPhase
+from ucm_cts.reference_models.model.timer_options import option_of
 from ucm_cts.reference_models.model.timer_times import earliest
 from ucm_cts.reference_models.properties.clause_10_3_end import DueAnswer, answer_of, due_shown
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -64,7 +65,7 @@ def _wrong_call(
 
 def _may_be_refused(runtime: ObservedRuntime, timer: Timer) -> Generator[Taken, None, bool]:
     """May the scheduler refuse this call, by a reading that is not declared otherwise?"""
-    reasons = [("zero-delay", "refused")] if timer.has_no_delay else []
+    reasons = [(option_of(runtime, "object", "zero-delay"), "refused")] if timer.has_no_delay else []
     reasons += [("zero-rounds", "refused")] if timer.max_rounds == 0 else []
     for option, value in reasons:
         if (yield from takes(runtime, option, value)):
@@ -215,11 +216,15 @@ def is_cancelled_tells(check: Property, runtime: ObservedRuntime) -> Conclusions
             due = _due_answer(runtime, phase, timer, call)
             wrong = isinstance(due, bool) and answer is not due
             if due == "open":
-                wrong = not (yield from takes(runtime, "is-cancelled", "inactive" if answer else "cancelled"))
+                wrong = not (
+                    yield from takes(
+                        runtime, option_of(runtime, "object", "is-cancelled"), "inactive" if answer else "cancelled"
+                    )
+                )
             if wrong:
                 yield check.fail(
                     f"not {str(due).lower()}",
-                    expected=f"is_cancelled of {timer.label} of '{phase.member.lane}' gives {due_shown(runtime, due)}",
+                    expected=f"is_cancelled of {timer.label} of '{phase.member.lane}' gives {due_shown(runtime, phase.kind, due)}",
                     observed=f"it gave {str(answer).lower()}",
                     at=(call.request.n, call.reply.n),
                 )

@@ -11,6 +11,7 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import TimeOut, Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.timer_options import reading_of
 from ucm_cts.reference_models.model.timer_times import MOST, earliest, free_after, latest, sure_rounds
 from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -64,8 +65,11 @@ def _is_quiet(timer: Timer, rate: TimeOut) -> bool:
 def _lacks_rounds(runtime: ObservedRuntime, timer: Timer) -> bool:
     """Are rounds missing, of which none may be left out, although all have been due, and nothing keeps them out any more?"""
     assert timer.max_rounds is not None
-    is_queued = runtime.ics.reading("timer-overrun") == "queued" and runtime.ics.reading("timer-anchor") == "grid"
-    is_there = not timer.is_in_startup or runtime.ics.reading("timer-in-startup") == "works"
+    overrun, anchor, in_startup = (
+        reading_of(runtime, timer.kind, option) for option in ("timer-overrun", "timer-anchor", "timer-in-startup")
+    )
+    is_queued = (overrun, anchor) == ("queued", "grid")
+    is_there = not timer.is_in_startup or in_startup == "works"
     due = latest(runtime, timer, timer.max_rounds - 1)
     if due is None or not is_queued or not is_there:
         return False

@@ -92,7 +92,7 @@ def is_canceled_tells(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if wrong:
                 yield check.fail(
                     "no boolean" if not isinstance(answer, bool) else f"not {str(due).lower()}",
-                    expected=f"is_canceled({number}) of '{phase.member.lane}' gives {due_shown(runtime, due)}",
+                    expected=f"is_canceled({number}) of '{phase.member.lane}' gives {due_shown(runtime, phase.kind, due)}",
                     observed=f"it gave {printed(reply.results or ())[1:-1] or 'nothing'}",
                     at=(call.request.n, reply.n),
                 )

@@ -13,7 +13,8 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness
 from ucm_cts.reference_models.model.phases import is_outside
 from ucm_cts.reference_models.model.service_policies import has_timers
-from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.timer_events import Kind, Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.timer_options import option_of, reading_of
 from ucm_cts.reference_models.model.timer_times import earliest, free_after, last_expiry, latest
 from ucm_cts.reference_models.model.timers import all_timer_phases
 from ucm_cts.reference_models.properties.clause_10_3 import PHASES, OfKind
@@ -58,7 +59,7 @@ def cancelled_timers_are_silent(check: Property, runtime: ObservedRuntime) -> Co
 
 def _is_tolerated(runtime: ObservedRuntime, phase: TimerPhase, timer: Timer, cancel: MethodCall, number: int) -> bool:
     assert cancel.reply is not None
-    if runtime.ics.reading("timer-cancel") == "strict":
+    if reading_of(runtime, timer.kind, "timer-cancel") == "strict":
         return False
     due = earliest(runtime, timer, number)
     if due is None or due > cancel.reply.t:
@@ -80,7 +81,7 @@ def _is_after(runtime: ObservedRuntime, phase: TimerPhase, timer: Timer, callbac
         or callback.n < cancel.reply.n
     ):
         return False
-    if runtime.ics.reading("timer-cancel") == "strict":
+    if reading_of(runtime, timer.kind, "timer-cancel") == "strict":
         return True
     free = free_after(runtime, timer, cancel.reply.t, callback.t)
     return free is not None and callback.t > free + lateness(runtime)
@@ -114,13 +115,14 @@ def answer_of(runtime: ObservedRuntime, timer: Timer, call: MethodCall) -> DueAn
     return True if while_waiting and cancel.over < call.request.n else "unknown"
 
 
-def due_shown(runtime: ObservedRuntime, due: DueAnswer) -> str:
+def due_shown(runtime: ObservedRuntime, kind: Kind, due: DueAnswer) -> str:
     """Such an answer for people."""
     if isinstance(due, bool):
         return str(due).lower()
-    declared = runtime.ics.reading("is-cancelled")
+    option = option_of(runtime, kind, "is-cancelled")
+    declared = runtime.ics.reading(option)
     shown = {"inactive": "true", "cancelled": "false"}.get(declared)
-    return f"{shown}, as is-cancelled={declared} declares" if shown and due == "open" else "a boolean"
+    return f"{shown}, as {option}={declared} declares" if shown and due == "open" else "a boolean"
 
 
 @property_at("closed", *PHASES.values(), feature="timers", timed=True)
@@ -170,7 +172,7 @@ def _after_restart(
     if not resumed and not is_over:
         return
     value = "resumed" if resumed else "dropped"
-    if not (yield from takes(runtime, "timers-at-stop", value)):
+    if not (yield from takes(runtime, option_of(runtime, phase.kind, "timers-at-stop"), value)):
         declared = "call back after the restart" if value == "dropped" else "are dropped"
         yield check.fail(
             value,

@@ -14,6 +14,7 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness, shown
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import Timer
+from ucm_cts.reference_models.model.timer_options import option_of, reading_of
 from ucm_cts.reference_models.model.timer_times import (
     MOST,
     earliest,
@@ -103,7 +104,11 @@ def timers_expire_in_time(check: Property, runtime: ObservedRuntime) -> Conclusi
     """Each expiry calls back, within the declared lateness if nothing holds the component."""
     come: list[Timer] = []
     for timer in _judged(runtime):
-        if timer.is_in_startup and runtime.ics.reading("timer-in-startup") != "works" and not timer.callbacks:
+        if (
+            timer.is_in_startup
+            and reading_of(runtime, timer.kind, "timer-in-startup") != "works"
+            and not timer.callbacks
+        ):
             continue
         finding = _late(check, runtime, timer)
         if finding is not None:
@@ -264,7 +269,7 @@ def exceptions_of_callbacks(check: Property, runtime: ObservedRuntime) -> Conclu
         if timer.rate is None or raised is None:
             continue
         later = [c for number, c in enumerate(timer.callbacks) if _is_after(runtime, timer, number, raised)]
-        if not later or (yield from takes(runtime, "callback-exception", "continues")):
+        if not later or (yield from takes(runtime, option_of(runtime, timer.kind, "callback-exception"), "continues")):
             continue
         yield check.fail(
             "continues",

@@ -11,6 +11,7 @@ from ucm_cts.reference_models.model.paced_events import MILLISECOND
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, shown
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import SECOND, TimeOut, Timer, TimerCallback, TimerPhase
+from ucm_cts.reference_models.model.timer_options import option_of, reading_of
 from ucm_cts.reference_models.model.timer_times import (
     CLOCKS,
     MOST,
@@ -102,7 +103,15 @@ def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if timer.is_in_startup:
                 if timer.has_usual_times:
                     value = "works" if timer.callbacks else "ignored"
-                    yield from _takes(check, runtime, timer, "timer-in-startup", value, due, PHASES[timer.kind])
+                    yield from _takes(
+                        check,
+                        runtime,
+                        timer,
+                        option_of(runtime, timer.kind, "timer-in-startup"),
+                        value,
+                        due,
+                        PHASES[timer.kind],
+                    )
             elif timer.rate is not None and timer.rate.is_absolute:
                 value = "ignored" if timer.callbacks else "refused"
                 yield from _takes(
@@ -110,7 +119,9 @@ def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 )
             elif timer.has_no_delay and timer.max_rounds != 0:
                 value = "at-once" if timer.callbacks else "ignored"
-                yield from _takes(check, runtime, timer, "zero-delay", value, due, EARLY[timer.kind])
+                yield from _takes(
+                    check, runtime, timer, option_of(runtime, timer.kind, "zero-delay"), value, due, EARLY[timer.kind]
+                )
                 yield from _at_once(check, runtime, timer, due)
             elif timer.delay.is_absolute:
                 read = [r for m in _clocks(runtime) if (r := read_before(timer, m)) is not None]
@@ -171,13 +182,14 @@ def missed_expiries(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if timer.rate is None or not timer.has_usual_times or timer.is_contested or not timer.is_started:
                 continue
             number = overrun(runtime, timer)
-            if number >= len(timer.callbacks) or runtime.ics.reading("timer-anchor") == "chained":
+            if number >= len(timer.callbacks) or reading_of(runtime, timer.kind, "timer-anchor") == "chained":
                 continue
             fitting = _readings_of_overrun(runtime, timer, number)
-            declared = runtime.ics.reading("timer-overrun")
+            option = option_of(runtime, timer.kind, "timer-overrun")
+            declared = runtime.ics.reading(option)
             if len(fitting) == 1:
                 (value,) = fitting
-                if (yield from takes(runtime, "timer-overrun", value)):
+                if (yield from takes(runtime, option, value)):
                     continue
             elif not fitting or declared in (*fitting, "observed"):
                 continue

@@ -51,7 +51,7 @@ def executed_once(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 yield _other_times(check, phase, invocation, 2, requirement)
             elif len(executions) > 1:
                 yield _other_times(check, phase, invocation, len(executions), requirement)
-            elif invocation.over < phase.until and invocation.n > phase.begin:
+            elif invocation.over < phase.until and invocation.n > phase.begin and invocation.call.possible:
                 yield from _carried_out(check, runtime, phase, invocation, requirement)
             elif phase.until < invocation.over and not invocation.executions:
                 yield from _left_waiting(check, runtime, phase, invocation, requirement)

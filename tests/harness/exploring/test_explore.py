@@ -143,7 +143,7 @@ def test_incidents_are_reported_once_remembered_and_tried_first(here: Path) -> N
     subject = "hostile.failing:DiesAtOnce"
     first = ucm_cts("explore", subject, *arguments, "4scenarios", "--out", "first")
     assert (first.status, first.err) == (1, "")
-    assert "seen  in 'explored 1': exit: exit status 7" in first.out
+    assert "seen  in 'explored 1'  exit: exit status 7" in first.out
     assert "✗ 0 causes of failure, 1 of incidents" in first.out
     assert "⚡ exit  4 times  failures/incident-1.json  exit status 7" in first.out
     (mishap,) = exploration(here / "first")["incidents"]

@@ -229,7 +229,7 @@ def says_cancelled_of_all_objects(self: ScheduledTimer, _own: bool) -> bool:
     return bool(self.triggers._cancelled)
 
 
-@alters("is_cancelled", "R-10.3.1-33", clauses=TRIGGERED, readings={"is-cancelled": "cancelled"})
+@alters("is_cancelled", "R-10.3.1-33", clauses=TRIGGERED, readings={"object-is-cancelled": "cancelled"})
 def says_cancelled_of_expired_objects(self: ScheduledTimer, _own: bool) -> bool:
     """is_cancelled gives true for timers that have expired, although the other reading is declared."""
     return self.timer.number not in self.triggers._waiting

@@ -180,22 +180,22 @@ class has_no_triggers_after_a_restart(Base):
         super()._begin_execution(member)
 
 
-@breaks("R-10.3.1-35", clauses=TRIGGERED, readings={"timers-at-stop": "resumed"})
+@breaks("R-10.3.1-35", clauses=TRIGGERED, readings={"object-timers-at-stop": "resumed"})
 class drops_triggers_it_declares_resumed(Base):
     """Timers that wait at stop are dropped, although they are declared to go on."""
 
 
-@breaks("R-10.3.1-35", clauses=TRIGGERED, readings={"timer-in-startup": "ignored"})
+@breaks("R-10.3.1-35", clauses=TRIGGERED, readings={"object-timer-in-startup": "ignored"})
 class takes_triggers_of_startup(Base):
     """A timer that is made in on_startup triggers, although it is declared to have no effect."""
 
 
-@breaks("R-10.3.1-19", clauses=TRIGGERED, readings={"zero-delay": "ignored"})
+@breaks("R-10.3.1-19", clauses=TRIGGERED, readings={"object-zero-delay": "ignored"})
 class triggers_at_once_undeclared(Base):
     """A delay of zero triggers at once, although it is declared to have no effect."""
 
 
-@breaks("R-10.3.1-22", clauses=TRIGGERED, readings={"timer-overrun": "merged"})
+@breaks("R-10.3.1-22", clauses=TRIGGERED, readings={"object-timer-overrun": "merged"})
 class catches_up_undeclared(Base):
     """Missed triggers are caught up, although they are declared to be merged."""
 
@@ -215,7 +215,7 @@ class begins_at_the_delay_undeclared(Base):
     """The first repeated trigger comes at the start delay, although it is declared one interval later."""
 
 
-@breaks("R-10.3.1-31", clauses=TRIGGERED, readings={"timer-cancel": "strict"}, also=_SILENT)
+@breaks("R-10.3.1-31", clauses=TRIGGERED, readings={"object-timer-cancel": "strict"}, also=_SILENT)
 class triggers_on_their_way_come_undeclared(for_objects(timer_ends.cancels_what_is_not_on_its_way, "base")):  # type: ignore[misc]
     """A timer that has begun to trigger, and has to wait for its component, is not cancelled, although that is declared."""
 

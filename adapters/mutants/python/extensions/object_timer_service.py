@@ -56,12 +56,12 @@ def refuses_both_kinds_of_timers(_self: Base, implementation: Implementation) ->
     return _has(implementation, s.OBJECT_TIMERS, s.INDEX_TIMERS)
 
 
-@breaks("R-10.3-10", clauses=TRIGGERED, readings={"second-timer-policy": "separate"})
+@breaks("R-10.3-10", clauses=TRIGGERED, readings={"object-second-timer-policy": "separate"})
 class refuses_a_second_scheduler_it_declares(Base):
     """A second policy for object timers is refused, although two are declared."""
 
 
-@breaks("R-10.3-10", clauses=TRIGGERED, readings={"second-timer-policy": "refused"})
+@breaks("R-10.3-10", clauses=TRIGGERED, readings={"object-second-timer-policy": "refused"})
 class accepts_a_second_scheduler(TakesSeveralSchedulers):
     """A second policy for object timers is accepted, although it is declared refused."""
 

@@ -83,7 +83,7 @@ class enters_beside_executions_from_the_second_round_on(Base):
                 self._call_handler(triggers, timer)
 
 
-@breaks("R-10.3.1-32", clauses=TRIGGERED, readings={"second-timer-policy": "separate"}, also=MISSING_TRIGGERS)
+@breaks("R-10.3.1-32", clauses=TRIGGERED, readings={"object-second-timer-policy": "separate"}, also=MISSING_TRIGGERS)
 class cancel_ends_the_timer_of_the_first_scheduler(TakesSeveralSchedulers):
     """cancel of a timer ends the timer of that number of the other scheduler, too."""
 
@@ -250,7 +250,7 @@ class takes_no_start_delay_for_the_interval(Triggers):
         return super().repeated(handler, start_delay if any(start_delay) else interval, interval, max_rounds)
 
 
-@breaks("R-10.3.1-31", clauses=TRIGGERED, readings={"timers-at-stop": "resumed"}, also=_SILENT)
+@breaks("R-10.3.1-31", clauses=TRIGGERED, readings={"object-timers-at-stop": "resumed"}, also=_SILENT)
 class does_not_cancel_timers_of_an_earlier_phase(resumes_triggers):
     """A timer that goes on after a restart cannot be cancelled any more."""
 
@@ -262,7 +262,9 @@ class does_not_cancel_timers_of_an_earlier_phase(resumes_triggers):
         return element
 
 
-@breaks("R-10.3.1-23", clauses=TRIGGERED, readings={"timer-overrun": "queued"}, also=("R-10.3.1-22", "R-10.3.1-24"))
+@breaks(
+    "R-10.3.1-23", clauses=TRIGGERED, readings={"object-timer-overrun": "queued"}, also=("R-10.3.1-22", "R-10.3.1-24")
+)
 class loses_one_of_the_rounds_that_wait(Triggers):
     """One of the rounds that have to wait for their component is left out, although they are declared to be caught up."""
 
@@ -315,11 +317,11 @@ class triggers_again_when_a_handler_raises(_Raising):
         Base._call_handler(self, triggers, timer)
 
 
-@breaks("R-10.3.1-23", clauses=TRIGGERED, readings={"callback-exception": "continues"}, also=MISSING_TRIGGERS)
+@breaks("R-10.3.1-23", clauses=TRIGGERED, readings={"object-callback-exception": "continues"}, also=MISSING_TRIGGERS)
 class ends_timers_that_raise_undeclared(EndsObjectsThatRaise):
     """A repeated timer whose handler raises ends, although it is declared to go on."""
 
 
-@breaks("R-10.3.1-23", clauses=TRIGGERED, readings={"callback-exception": "ends"})
+@breaks("R-10.3.1-23", clauses=TRIGGERED, readings={"object-callback-exception": "ends"})
 class goes_on_after_exceptions_undeclared(Base):
     """A repeated timer whose handler raises goes on, although it is declared to end."""

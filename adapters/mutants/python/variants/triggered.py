@@ -25,7 +25,7 @@ def for_objects(timers: type[Timers], name: str) -> type[Triggers]:
 
 def _as(name: str, of: type[Timers], **readings: str) -> None:
     """A variant of index timers is one of object timers, too."""
-    declared = {option.replace("_", "-"): value for option, value in readings.items()}
+    declared = {f"object-{option.replace('_', '-')}": value for option, value in readings.items()}
     variant_of(*TRIGGERED, readings=declared)(for_objects(of, name))
 
 
@@ -44,7 +44,7 @@ _as("triggers_are_a_little_late", timed.is_a_little_late)
 @variant_of(
     *TRIGGERED,
     readings={
-        **timed.READINGS_OF_BOTH,
+        **{f"object-{option}": value for option, value in timed.READINGS_OF_BOTH.items()},
         "timer-ids": "ever",
         "repeated-result": "printed",
         "first-repeated-trigger": "delay",
@@ -58,6 +58,11 @@ class declares_its_object_timers(Base):
     """The reference framework, with all that it does declared."""
 
 
+@variant_of(*TRIGGERED, readings={f"object-{option}": "as-index-timers" for option in timed.READINGS_OF_BOTH})
+class declares_both_kinds_alike(Base):
+    """The reference framework, whose object timers do as its index timers."""
+
+
 class TakesSeveralSchedulers(Base):
     """A component may have several policies for object timers, each with a scheduler of its own."""
 
@@ -66,7 +71,7 @@ class TakesSeveralSchedulers(Base):
             super()._check_schedulers(implementation, [policy])
 
 
-@variant_of(*TRIGGERED, readings={"second-timer-policy": "separate"})
+@variant_of(*TRIGGERED, readings={"object-second-timer-policy": "separate"})
 class has_two_schedulers(TakesSeveralSchedulers):
     """A component may have several policies for object timers, each with a scheduler of its own."""
 
@@ -254,7 +259,7 @@ class hands_over_one_object(Triggers):
         return known.setdefault(timer.number, super().given(timer))
 
 
-@variant_of(*TRIGGERED, readings={"zero-delay": "refused"})
+@variant_of(*TRIGGERED, readings={"object-zero-delay": "refused"})
 class refuses_triggers_at_once(Triggers):
     """A delay of zero is refused."""
 
@@ -266,7 +271,7 @@ class refuses_triggers_at_once(Triggers):
         return super()._make(handler, delay, interval, max_rounds)
 
 
-@variant_of(*TRIGGERED, readings={"zero-delay": "ignored"})
+@variant_of(*TRIGGERED, readings={"object-zero-delay": "ignored"})
 class ignores_triggers_at_once(Triggers):
     """A timer with a delay of zero never triggers."""
 
@@ -289,7 +294,7 @@ class raises_for_ended_timers(ScheduledTimer):
         super().cancel()
 
 
-@variant_of(*TRIGGERED, readings={"timers-at-stop": "resumed"})
+@variant_of(*TRIGGERED, readings={"object-timers-at-stop": "resumed"})
 class resumes_triggers(Base):
     """Object timers that wait at stop go on after the restart."""
 

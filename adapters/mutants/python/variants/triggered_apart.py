@@ -64,7 +64,7 @@ class _TakesWhenDue(Base):
         thread.start()
 
 
-@variant_of(*TRIGGERED, readings={"timer-cancel": "tolerant", "timer-overrun": "queued"})
+@variant_of(*TRIGGERED, readings={"object-timer-cancel": "tolerant", "object-timer-overrun": "queued"})
 class triggers_on_own_threads(_TakesWhenDue):
     """Each trigger has a thread of its own, which waits for the component."""
 
@@ -72,7 +72,7 @@ class triggers_on_own_threads(_TakesWhenDue):
         self._begin_thread(triggers, execute)
 
 
-@variant_of(*TRIGGERED, readings={"timer-cancel": "tolerant", "timer-overrun": "skipped"})
+@variant_of(*TRIGGERED, readings={"object-timer-cancel": "tolerant", "object-timer-overrun": "skipped"})
 class leaves_out_rounds_while_executed(triggers_on_own_threads):
     """A round that is due while its protected component is executed is left out, and counts."""
 
@@ -105,14 +105,17 @@ class _Posts(_TakesWhenDue):
         super()._end_execution(member)
 
 
-@variant_of(*TRIGGERED, readings={"timer-cancel": "tolerant", "timer-overrun": "queued", "rounds-attribute": "done"})
+@variant_of(
+    *TRIGGERED,
+    readings={"object-timer-cancel": "tolerant", "object-timer-overrun": "queued", "rounds-attribute": "done"},
+)
 class posts_triggers(_Posts):
     """Triggers are put in a queue; all of them come, also when their timer is cancelled, and ``rounds`` counts them when they are put there."""
 
     triggers_class = tells_rounds_done
 
 
-@variant_of(*TRIGGERED, readings={"delta-time": "since-last", "is-cancelled": "inactive"})
+@variant_of(*TRIGGERED, readings={"delta-time": "since-last", "object-is-cancelled": "inactive"})
 class posts_triggers_with_the_time_since_the_last(_Posts, tells_time_since_last):
     """The same; they tell the time between two expiries, and a timer whose triggers have all been put there is inactive."""
 
@@ -136,12 +139,12 @@ class _Counts(Triggers):
         return super()._next()
 
 
-@variant_of(*TRIGGERED, readings={"timer-overrun": "skipped"})
+@variant_of(*TRIGGERED, readings={"object-timer-overrun": "skipped"})
 class leaves_out_rounds_that_count(_Counts):
     """Rounds that pass while the timer cannot trigger are left out, and count."""
 
 
-@variant_of(*TRIGGERED, readings={"timers-at-stop": "resumed", "timer-overrun": "skipped"})
+@variant_of(*TRIGGERED, readings={"object-timers-at-stop": "resumed", "object-timer-overrun": "skipped"})
 class resumes_what_is_left_of_rounds(resumes_triggers):
     """The same, and so are rounds that pass while the component is stopped; those that are left come afterwards."""
 
@@ -167,7 +170,7 @@ class _Merges(Triggers):
             return True
 
 
-@variant_of(*TRIGGERED, readings={"timer-overrun": "merged"})
+@variant_of(*TRIGGERED, readings={"object-timer-overrun": "merged"})
 class merges_rounds_that_count(Base):
     """One trigger stands for all rounds that have passed, and tells the last of them."""
 
@@ -212,12 +215,12 @@ class EndsObjectsThatRaise(Base):
             raise
 
 
-@variant_of(*TRIGGERED, readings={"callback-exception": "ends"})
+@variant_of(*TRIGGERED, readings={"object-callback-exception": "ends"})
 class ends_objects_whose_handler_raises(EndsObjectsThatRaise):
     """A repeated timer whose handler raises triggers no more."""
 
 
-@variant_of(*TRIGGERED, readings={"callback-exception": "observed"})
+@variant_of(*TRIGGERED, readings={"callback-exception": "observed", "object-callback-exception": "as-index-timers"})
 class ends_objects_whose_handler_raises_unasked(EndsObjectsThatRaise):
     """The same, without a declaration."""
 
