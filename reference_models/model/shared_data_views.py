@@ -169,8 +169,8 @@ def _left(found: SharedData, reader: Reader, base: int, call: MethodCall) -> lis
     """The values that the reader has read since ``base`` before it read another one: they do not come back."""
     sent = [value for one in found.publications if one.since < call.over for value in one.values]
     reads = [r for r in reader.reads if base < r.request.n and r.over < call.request.n and is_ok(r)]
-    known = [value for r in reads if (value := given(r)) is not None and sent.count(value) == 1]
-    return [value for n, value in enumerate(known) if any(later != value for later in known[n + 1 :])]
+    known = [(r, value) for r in reads if (value := given(r)) is not None and sent.count(value) == 1]
+    return [value for r, value in known if any(r.over < later.request.n and value != other for later, other in known)]
 
 
 def _kept(

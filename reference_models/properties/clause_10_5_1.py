@@ -169,6 +169,9 @@ def executed_at_any_priority(check: Property, runtime: ObservedRuntime) -> Concl
         is_pair = one.policy.definition == other.policy.definition and one.priority != other.priority
         if not is_pair or one.member is other.member or not other.executions:
             continue
+        is_background = one.policy.definition == s.BACKGROUND
+        if is_background and one.number and runtime.ics.reading("background-again") == "once-a-life":
+            continue
         asked = [i.t for i in one.invocations] if s.EXTENDED[one.policy.definition] == s.ACTIVE else [one.first(True)]
         latest = max([*asked[:1], one.first(True)]) + 2 * one.period + lateness(runtime)
         if one.executions:

@@ -8,6 +8,8 @@ from typing import Any
 import msgspec
 import pytest
 
+from ucm_cts.adapters.contract.data_types import AnyType
+from ucm_cts.adapters.contract.platform_interfaces import named_interfaces
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.mutants.python.subjects import CORE, PACED, REQUESTS, SHARED, TIMED, TRIGGERED, variants_of
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
@@ -25,6 +27,10 @@ VARIANTS = variants_of((*CORE, *TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
 @pytest.mark.parametrize("case", ONCE_FAILED, ids=lambda case: case["name"])
 def test_conformant_framework_fails_no_more(case: dict[str, Any]) -> None:
     scenario = msgspec.convert({field: case[field] for field in FIELDS if field in case}, Scenario)
+    types = msgspec.convert(case.get("bound", {}), dict[str, dict[str, AnyType]])
+    for name, bound in types.items():
+        interfaces = {**scenario.interfaces, **named_interfaces(name, bound)}
+        scenario = msgspec.structs.replace(scenario, interfaces=interfaces, types={**scenario.types, name: bound})
     name = case["subject"]
     readings = dict(stated_by(None, "reference-py").readings) | dict(
         VARIANTS[name].readings if name in VARIANTS else {}
