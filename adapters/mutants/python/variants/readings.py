@@ -202,7 +202,7 @@ class appends_connections(Base):
         by_port: dict[str, list[pm.PortElementObject | None]] = {}
         for connection in self._connections_from(member):
             by_port.setdefault(connection.port, []).append(connection.target)
-        return [pm.PortConnection(port, targets) for port, targets in by_port.items()]
+        return self._with_services(member, [pm.PortConnection(port, targets) for port, targets in by_port.items()])
 
 
 @variant
