@@ -166,9 +166,14 @@ def _cancel() -> TestPurpose:
     )
     ended = (tell(1), s.Pause(500), tell(2), s.Pause(800), tell(3), after(1.6))
     cases.append(("of numbers that were started twice", alone(twice, *ended)))
-    held = timed(sporadic(5, 1, 1), s.HoldAtGate(INSIDE), cancel(5, 1), policies=(PASSIVE, TIMERS))
-    late = while_held(1500, 0.2)
-    cases.append(("of one that waits for its component", alone(held, *late)))
+    for which, order, afterwards in (("one", sporadic(5, 1, 1), 0.2), ("a periodic one", periodic(5, 1, 1, 1), 2.2)):
+        held = timed(order, s.HoldAtGate(INSIDE), cancel(5, 1), policies=(PASSIVE, TIMERS))
+        cases.append((f"of {which} that waits for its component", alone(held, *while_held(1500, afterwards))))
+    large = [
+        order for number in _LARGE for order in (sporadic(number, 1, 1), cancel(number, 2), is_canceled(number, 3))
+    ]
+    of_all = alone(timed(*large), tell(1), s.Pause(200), tell(3), tell(2), tell(3), after(1))
+    cases.append(("of numbers of any size", of_all))
     return purposes_about("cancel", "22 38 39 40 .04", *cases)
 
 

@@ -132,7 +132,8 @@ class starts_the_unconfigured_with_null(starts_the_unconfigured):
 
     def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         given = {d.from_port: d for d in super()._dependencies_of(member)}
-        return [given.get(p, pm.PortConnection(p, (None,))) for p in member.implementation.requires]
+        required = [given.pop(p, pm.PortConnection(p, (None,))) for p in member.implementation.requires]
+        return [*required, *given.values()]
 
 
 class LeadsNowhere(pm.PortElementObject):

@@ -127,8 +127,9 @@ def stops_half_way(self: Base) -> None:
     """A stop ends where an on_shutdown raises; another stop goes on from there."""
     with self._operation():
         while self.started:
-            failures = Failures()
-            self._shut_down(self.started.pop(), failures)
+            failures, member = Failures(), self.started.pop()
+            self._close_entrances(member)
+            self._shut_down(member, failures)
             failures.report()
         self.is_started = False
 

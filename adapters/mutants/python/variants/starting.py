@@ -19,14 +19,16 @@ from ucm_cts.adapters.reference.python.members import Connection, Failures, Memb
 @replaces("_dependencies_of")
 def one_entry_a_connection(self: readings.appends_connections, member: Member) -> list[pm.PortConnection]:
     """Two connections of a port element make two entries of the list, the later one first."""
-    return [pm.PortConnection(c.port, (c.target,)) for c in reversed(self._connections_from(member))]
+    connections = reversed(self._connections_from(member))
+    return self._with_services(member, [pm.PortConnection(c.port, (c.target,)) for c in connections])
 
 
 @replaces("_dependencies_of")
 def lists_unconnected_ports(self: readings.starts_the_unconfigured, member: Member) -> list[pm.PortConnection]:
     """Unconnected port elements have an entry without references; entries are in reverse order."""
     given = {d.from_port: d for d in readings.starts_the_unconfigured._dependencies_of(self, member)}
-    return [given.get(port, pm.PortConnection(port, ())) for port in reversed(member.implementation.requires)]
+    required = [given.pop(port, pm.PortConnection(port, ())) for port in reversed(member.implementation.requires)]
+    return [*required, *given.values()]
 
 
 class _Entrance(pm.PortElementObject):
