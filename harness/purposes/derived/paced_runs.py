@@ -47,6 +47,7 @@ def _rates() -> TestPurpose:
     for period, count in ((_SHORT, _MANY), (_USUAL, _VERY_MANY), (_LONG, 3)):
         runner = _runner(policy(_PERIODIC, period))
         cases.append((f"each {period} ms", _scenario({"runner": runner}, s.Start(), _runs(count))))
+    cases.append(("each 10.5 ms", _scenario({"runner": _runner(policy(_PERIODIC, 10.5))}, s.Start(), _runs(_MANY))))
     seconds = _runner(policy(_PERIODIC, 1050, 1020))
     cases.append(("each 1,050 ms after 1,020 ms", _scenario({"runner": seconds}, s.Start(), _runs(1), _runs(2))))
     raising = _runner(policy(_PERIODIC, _USUAL), after=(s.RaiseError(),))
