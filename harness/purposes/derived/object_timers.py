@@ -152,7 +152,7 @@ def _repeated() -> TestPurpose:
         repeated(0.2, 1.5, 2, 1), repeated(0.2, 0.4, 2**31, 1, SECOND), repeated(0.3, 0.4, 2**32 - 1, 1, THIRD)
     )
     cases.append(("long intervals and many rounds", alone(many, tell(1), after(1.8))))
-    more = scheduling(repeated(0.2, 0.4, 2**16 + 1, 1), repeated(0.35, 0.4, 2**8 + 1, 1, SECOND))
+    more = scheduling(repeated(0.2, 0.4, 2**16 + 1, 1), repeated(0.25, 0.4, 2**8 + 1, 1, SECOND))
     cases.append(("rounds whose low bytes are one", alone(more, tell(1), after(1.4))))
     return _about("repeated", "20 21 22 23 24 30", *cases)
 
