@@ -56,6 +56,9 @@ TRIES = 3
 IN_VAIN = 64
 """After this many scenarios in a row that were left out because of incidents, no more are drawn."""
 
+_CALLED_AGAIN = (s.INDEX_TIMERS, s.OBJECT_TIMERS, s.PERIODIC_SELF_EXECUTING)
+"""Policies by which a component is called again and again."""
+
 
 @dataclass(frozen=True)
 class Progress:
@@ -74,9 +77,6 @@ class Progress:
     events: int
     failures: int
 
-
-_CALLED_AGAIN = (s.INDEX_TIMERS, s.OBJECT_TIMERS, s.PERIODIC_SELF_EXECUTING)
-"""Policies by which a component is called again and again."""
 
 Fate = Literal["still there", "no longer shown", "unknown"]
 """The fate of a remembered failure; None if an incident or the end of the time came first."""
@@ -137,8 +137,12 @@ class Exploration:
     def explore(self) -> Iterator[Progress]:
         """Draw and run scenarios; yields after each. Ends by itself only if nothing more can be tried."""
         in_vain = 0
+        seen = len(self._failures)
         for checked in self._check(self._purposes()):
             self._run += 1
+            for failure in self._failures[seen:]:
+                self._remember(*failure)
+            seen = len(self._failures)
             yield Progress(self._run, len(self._rows), len(self._all_rows), len(self._events), len(self._failures))
             kinds = {execution.incident.kind for _, execution in checked.failures if execution.incident}
             in_vain = in_vain + 1 if "untried" in kinds else 0
@@ -157,7 +161,6 @@ class Exploration:
                 if finding is not None and cause_of(finding) not in self._causes:
                     self._causes.add(cause_of(finding))
                     self._failures.append((finding, execution))
-                    self._remember(Remembered.of_finding(finding, execution.scenario))
                 incident = execution.incident
                 if incident is not None and incident.kind != "untried" and not is_waiting(execution):
                     cause = cause_of_incident(execution)
@@ -165,14 +168,16 @@ class Exploration:
                     if finding is None and cause not in self._unexplained:
                         self._unexplained.add(cause)
                         self._failures.append((None, execution))
-                        if cause.kind != "unreachable":
-                            self._remember(Remembered.of_incident(execution))
             yield checked
 
-    def _remember(self, failure: Remembered) -> None:
+    def _remember(self, finding: Finding | None, execution: Execution) -> None:
         """Keep a failure at once: an exploration takes hours, and may be killed before its end."""
-        if self._memory is not None:
-            self._memory.remember_first(failure)
+        if self._memory is None:
+            return
+        if finding is not None:
+            self._memory.remember_first(Remembered.of_finding(finding, execution.scenario))
+        elif execution.incident is not None and execution.incident.kind != "unreachable":
+            self._memory.remember_first(Remembered.of_incident(execution))
 
     def _purposes(self) -> Iterator[TestPurpose]:
         for number in count(1):

@@ -103,15 +103,7 @@ def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if timer.is_in_startup:
                 if timer.has_usual_times:
                     value = "works" if timer.callbacks else "ignored"
-                    yield from _takes(
-                        check,
-                        runtime,
-                        timer,
-                        option_of(runtime, timer.kind, "timer-in-startup"),
-                        value,
-                        due,
-                        PHASES[timer.kind],
-                    )
+                    yield from _takes(check, runtime, timer, "timer-in-startup", value, due, PHASES[timer.kind])
             elif timer.rate is not None and timer.rate.is_absolute:
                 value = "ignored" if timer.callbacks else "refused"
                 yield from _takes(
@@ -119,9 +111,7 @@ def unusual_times(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 )
             elif timer.has_no_delay and timer.max_rounds != 0:
                 value = "at-once" if timer.callbacks else "ignored"
-                yield from _takes(
-                    check, runtime, timer, option_of(runtime, timer.kind, "zero-delay"), value, due, EARLY[timer.kind]
-                )
+                yield from _takes(check, runtime, timer, "zero-delay", value, due, EARLY[timer.kind])
                 yield from _at_once(check, runtime, timer, due)
             elif timer.delay.is_absolute:
                 read = [r for m in _clocks(runtime) if (r := read_before(timer, m)) is not None]
@@ -164,6 +154,7 @@ def _takes(
         return  # the first ones may have been left out
     if due is None or free is None or (free + lateness(runtime) > timer.until[1] and not timer.callbacks):
         return
+    option = option_of(runtime, timer.kind, option)
     if not (yield from takes(runtime, option, value)):
         yield check.fail(
             option,

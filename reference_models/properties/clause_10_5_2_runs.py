@@ -185,7 +185,8 @@ def missed_runs(check: Property, runtime: ObservedRuntime) -> Conclusions:
 def _tick_after(phase: PacedPhase, moment: int) -> int:
     """The earliest instant of the grid that may follow ``moment``.
 
-    A grid may begin when a thread does, later than its first instant: by no more than any run on it came later.
+    A grid may begin with its thread, after the first instant. No run comes before its place in the grid, so the grid began no
+    later than the run with the smallest delay shows.
     """
     first = phase.first(latest=True)
     behind = min(max(0, run.t - first) % phase.period for run in phase.executions[: phase.overrun + 1])
