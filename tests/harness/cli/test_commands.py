@@ -97,7 +97,7 @@ def test_terminal_that_knows_no_symbols(here: Path) -> None:
 
 
 def test_lost_output_is_an_error_and_the_report_is_kept(here: Path) -> None:
-    command = [sys.executable, "-m", "ucm_cts", "run", "reference-py", "--out", "out"]
+    command = [sys.executable, "-m", "ucm_cts", "run", "reference-py", "-k", REQUIREMENT, "--out", "out"]
     with open("/dev/full", "w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 3
