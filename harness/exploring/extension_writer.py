@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Policy, Scenario
 from ucm_cts.harness.exploring.paced_writer import paced_scenario
@@ -66,17 +68,22 @@ class _SharedDataWriter:
         self.readers_of[connection] = []
         places = (s.MANAGER, sd.ELSEWHERE) if self.has_place else (s.MANAGER,)
         for _ in range(self.choose((1, 1, 2, 3))):
-            self.made.writer(self.choose(places))
+            self.made.writer(self.choose(places), of_writer=self._port_of(self.made.writers))
             self.connection_of.append(connection)
         for number in range(self.choose((1, 2, 3))):
             writer = len(self.connection_of) - 1
             own = writer if number == 0 and self.choose((False, False, True)) else None
+            of_reader = self._port_of(self.made.readers) if own is None else None
             policies: tuple[Policy, ...] = self.choose(((), (), (Policy(s.PROTECTED_PASSIVE),)))
-            place = self.made.parts[self.made.writers[writer]].place if own is not None else self.choose(places)
+            place = self.choose(places)
             reads = self.choose((False, False, True))
-            self.made.reader(place, () if own is not None else policies, of_writer=own, reads_inside=reads)
+            self.made.reader(place, policies, own, of_reader, reads)
             self.readers_of[connection].append(len(self.made.readers) - 1)
             self.sure.add(len(self.made.readers) - 1)
+
+    def _port_of(self, ports: Sequence[sd.Port]) -> int | None:
+        """The number of one of ``ports``, whose component gets a further one; mostly None."""
+        return self.choose((None, None, None, self.choose(range(len(ports))))) if ports else None
 
     def _some_writer(self) -> int:
         return int(self.choose(range(len(self.connection_of))))
@@ -136,7 +143,7 @@ class _SharedDataWriter:
             self._unsettle()
             self.writes += 1
             place = self.choose((s.MANAGER, sd.ELSEWHERE))
-            working = [n for n, name in enumerate(self.made.writers) if self.made.parts[name].place != place]
+            working = [n for n, writer in enumerate(self.made.writers) if self.made.place_of(writer) != place]
             self.made.stop(place)
             if working:
                 self.made.update(self.choose(working), of=())
@@ -155,21 +162,23 @@ def _requests(choose: Choose) -> Scenario:
     if choose((False, True)):
         made.server(choose(rr.KINDS))
         for kind in kinds:
-            made.clients((kind,), choose((1, 2, 3)))
+            made.clients((kind,), choose((1, 2, 3)), second=choose(("", "", made.link)))
         made.start()
         for _ in range(choose((2, 4, 8))):
             made.ask(choose(range(len(kinds))))
             if choose((False,) * 5 + (True,)):
                 made.restart()
         return made.end()
-    waiting = [choose((1, 2, 3)) if kind == rr.ASYNCHRONOUS else 1 for kind in kinds]
+    requests = [choose((1, 2, 3)) if kind == rr.ASYNCHRONOUS else 1 for kind in kinds]
+    seconds = [choose(("", "", made.link)) if kind == rr.ASYNCHRONOUS else "" for kind in kinds]
+    waiting = [2 * number if second else number for number, second in zip(requests, seconds, strict=True)]
     order = list(range(1, sum(waiting) + 1))
     shuffled = []
     while order:
         shuffled.append(order.pop(order.index(choose(order))))
     made.storing(shuffled, unknown=choose((None, None, 4_000_000_000)))
-    for kind, requests in zip(kinds, waiting, strict=True):
-        made.clients((kind,), requests)
+    for kind, number, second in zip(kinds, requests, seconds, strict=True):
+        made.clients((kind,), number, second=second)
     made.start().ask_all(*range(len(kinds))).entered(sum(waiting))
     made.answer(sum(n for kind, n in zip(kinds, waiting, strict=True) if kind == rr.ASYNCHRONOUS))
     return made.join(*range(len(kinds))).end()

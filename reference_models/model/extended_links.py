@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS, named_interfaces
@@ -35,13 +35,26 @@ def fits(runtime: ObservedRuntime, member: Member, step: s.Attach, link: LinkSta
     )
 
 
-def changes_between(runtime: ObservedRuntime, begin: int, end: int) -> Iterator[Operation]:
-    """Operations between these events that stop or remove components, undo connections, or break or mend them."""
+def changes_between(
+    runtime: ObservedRuntime, begin: int, end: int, among: Collection[Member] = ()
+) -> Iterator[Operation]:
+    """Operations between these events that stop or remove components, undo connections, or break or mend them.
+
+    With ``among``: but for stops of other containers than those of these components. A stop of the manager may be that of all.
+    """
+    places = {id(member.container) for member in among}
     return (
         o
         for o in runtime.interactions.changes
-        if (o.step.undoes or isinstance(o.step, s.Mend)) and o.overlaps(begin, end)
+        if (o.step.undoes or isinstance(o.step, s.Mend)) and o.overlaps(begin, end) and not _is_elsewhere(o, places)
     )
+
+
+def _is_elsewhere(operation: Operation, places: Collection[int]) -> bool:
+    """Does it stop a container that is none of ``places``, and not the manager?"""
+    container = operation.container
+    is_stop = isinstance(operation.step, s.Stop) and operation.step.container != s.MANAGER
+    return is_stop and bool(places) and container is not None and id(container) not in places
 
 
 def overdue_since(runtime: ObservedRuntime, member: Member, since: Event) -> int:

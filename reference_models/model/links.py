@@ -49,6 +49,12 @@ class End:
         return self.member is other.member and self.of == other.of
 
     @property
+    def label(self) -> str:
+        """What findings call it: its component, and its port if that has several of connectors of 10.4."""
+        lane, ports = self.member.lane, {name.partition(".")[0] for name in self.member.declaration.ports}
+        return f"{lane}.{self.of}" if len(ports) > 1 else lane
+
+    @property
     def is_synchronous(self) -> bool:
         """Does a port with one element only take part in request-response?"""
         kind = self.kind

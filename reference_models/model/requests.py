@@ -132,14 +132,17 @@ def _pair_by_number(found: Requests, callback: Callback) -> None:
 
 
 def is_sound(runtime: ObservedRuntime, asked: Asked, until: int = NEVER) -> bool:
-    """Was everything in order from the request until that event: one server, all operational and attached in time, nothing broken?"""
+    """Was everything in order from the request until that event: one server, all operational and attached in time, nothing broken, and neither
+    of the two stopped?
+    """
     call, link = asked.call, asked.call.link
     if link is None or not link.is_proper or link.was_broken or not call.ready or not call.prepared:
         return False
     servers = {id(end.member) for end, _ in call.targets}
     if len(servers) != 1 or not all(ready for _, ready in call.targets) or call.is_mistyped:
         return False
-    return next(changes_between(runtime, call.request.n, until), None) is None
+    both = [asked.client.member, *(end.member for end, _ in call.targets)]
+    return next(changes_between(runtime, call.request.n, until, both), None) is None
 
 
 def fails(end: End) -> bool:

@@ -24,7 +24,7 @@ from ucm_cts.adapters.contract.platform_interfaces import (
 )
 from ucm_cts.reference_models.model.extended_links import end_at
 from ucm_cts.reference_models.model.links import LinkState
-from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall, Operation
+from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.shared_data_events import (
     Publication,
@@ -222,7 +222,7 @@ def _find_sessions(runtime: ObservedRuntime, found: SharedData, reader: Reader) 
             counted = 0
         if must_count:
             flat = counted
-        if max(flat, counted) <= 0 or session.unclear_since < NEVER:
+        if max(flat, counted) <= 0:
             session.released, session = call, None
         elif flat <= 0:
             session.unclear_since = min(session.unclear_since, call.request.n)

@@ -68,6 +68,13 @@ class Session:
     unclear_since: int = NEVER
     released: MethodCall | None = None
 
+    def beginnings(self, before: int) -> list[MethodCall]:
+        """The calls of ``freeze_data``, made before that event, that may have frozen the reader: the first one, and those after it may have
+        been over.
+        """
+        again = [call for call in self.nested if self.unclear_since < call.request.n < before]
+        return [self.freeze, *again]
+
 
 @dataclass(slots=True, eq=False)
 class Reader:

@@ -66,6 +66,11 @@ def frozen_at(found: SharedData, call: MethodCall, but: Reader | None = None) ->
     return [session for state, session in states if state == "frozen" and session is not None]
 
 
+def may_be_frozen(found: SharedData, call: MethodCall) -> bool:
+    """May some reader be frozen while ``call`` is made?"""
+    return any(state_at(reader, call)[0] != "free" for reader in found.readers)
+
+
 def view_of(runtime: ObservedRuntime, found: SharedData, reader: Reader, read: MethodCall) -> View:
     """What the reader may read in ``read``."""
     state, session = state_at(reader, read)
@@ -134,20 +139,22 @@ def _free(runtime: ObservedRuntime, found: SharedData, reader: Reader, call: Met
 
 def _holding(found: SharedData, reader: Reader, call: MethodCall, view: View) -> list[MethodCall]:
     """The freezes of other readers that may hold the connection in ``call``: until nobody is frozen any more and something that was
-    published later has arrived. A freeze while another one holds keeps what that one kept.
+    published later has arrived. A freeze while another one holds, also one of the reader itself, keeps what that one kept.
     """
-    left = [session for other in found.readers if other is not reader for session in other.sessions]
+    left = [session for other in found.readers for session in other.sessions]
     latest = max((one.since for one in view.arrived), default=0)
     freezes: list[MethodCall] = []
     looked_at = [call]
     while looked_at:
         moment = looked_at.pop()
         for session in [one for one in left if one.freeze.request.n < moment.over]:
+            if moment is call and session in reader.sessions:
+                continue
             released = session.released
             if released is None or released.over > moment.request.n or released.request.n > latest:
                 left.remove(session)
-                freezes.append(session.freeze)
-                looked_at.append(session.freeze)
+                freezes += session.beginnings(moment.over)
+                looked_at += session.beginnings(moment.over)
     return freezes
 
 
@@ -198,6 +205,8 @@ def _kept(
 def _pinned(runtime: ObservedRuntime, found: SharedData, reader: Reader, session: Session, call: MethodCall) -> View:
     """What the reader kept when it was frozen: what it has read since, or else what it might have read then."""
     view = _free(runtime, found, reader, session.freeze)
+    for again in session.beginnings(call.request.n)[1:]:
+        view = _both(view, _free(runtime, found, reader, again))
     for read in reader.reads:
         is_in = session.freeze.over < read.request.n and read.over < call.request.n
         value = given(read) if is_in and is_ok(read) else None

@@ -13,14 +13,14 @@ from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_phases import lateness
 from ucm_cts.reference_models.model.phases import noticed
-from ucm_cts.reference_models.model.timer_events import Timer, TimerPhase
+from ucm_cts.reference_models.model.timer_events import Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_times import earliest, free_after, latest
 from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.clause_10_3_end import DueAnswer, answer_of, due_shown
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _NOTHING_ELSE, _NUMBER_TOLD, _APART = "R-10.3.2-22", "R-10.3.2-34", "R-10.3.2-37"
-_TELLS, _NUMBERS, _CANCELS = "R-10.3.2-40", "R-10.3.2-33", "R-10.3.2-38"
+_TELLS, _NUMBERS, _CANCELS, _ONCE = "R-10.3.2-40", "R-10.3.2-33", "R-10.3.2-38", "R-10.3.2-29"
 
 _LONG_ENOUGH = 1_000_000_000
 """A component whose timers do not call back for so long is quiet, in nanoseconds."""
@@ -128,14 +128,19 @@ def _due_answer(runtime: ObservedRuntime, phase: TimerPhase, call: MethodCall) -
     return answer_of(runtime, started[-1], call)
 
 
-@property_at("closed", _NUMBERS, feature="timers", timed=True)
+@property_at("closed", _NUMBERS, _ONCE, feature="timers", timed=True)
 def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """A number is started while its timer waits: the new timer counts, the old one, both, or the call is refused; never none."""
+    """A number is started while its timer waits: the new timer counts, the old one, both, or the call is refused; never none.
+
+    Those that count and do not repeat call back once.
+    """
     for phase in timer_phases(runtime):
         for old, new in _started_twice(runtime, phase):
             later = [c for c in phase.callbacks if c.number == old.number and c.n > new.call.request.n]
             value = _reading_of_use(runtime, old, new, [c.t for c in later])
             if value and (yield from takes(runtime, "number-in-use", value)):
+                counting = {"replace": (new,), "both": (old, new)}.get(value, (old,))
+                yield from _no_surplus(check, runtime, counting, new, later)
                 continue
             declared = runtime.ics.reading("number-in-use")
             yield check.fail(
@@ -148,7 +153,31 @@ def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 ),
                 observed=f"it did as under '{value}'" if value else "it did not, for either start",
                 at=(*at_of(old, *later), *(() if value else noticed(runtime, latest(runtime, new, 0)))),
+                requirement=_NUMBERS,
             )
+
+
+def _no_surplus(
+    check: Property,
+    runtime: ObservedRuntime,
+    counting: Sequence[Timer],
+    new: Timer,
+    later: Sequence[TimerCallback],
+) -> Conclusions:
+    """The timers of one number that count since ``new`` was started call back once each, if none of them repeats."""
+    reply = new.call.reply
+    if reply is None or any(timer.rate is not None for timer in counting):
+        return
+    after = [callback for callback in later if callback.t > reply.t + lateness(runtime)]
+    if len(after) > len(counting):
+        yield check.fail(
+            "again",
+            expected=f"timer {new.number} of '{new.phase.member.lane}', which is started again while it waits, calls back once"
+            + (" for each start" if len(counting) > 1 else ""),
+            observed=f"it called back {len(after)} times",
+            at=at_of(new, *after),
+            requirement=_ONCE,
+        )
 
 
 def _reading_of_use(runtime: ObservedRuntime, old: Timer, new: Timer, came: Sequence[int]) -> str:

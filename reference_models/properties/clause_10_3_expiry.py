@@ -20,6 +20,7 @@ from ucm_cts.reference_models.model.timer_times import (
     earliest,
     free_after,
     is_kept_out,
+    last_expiry,
     latest,
     may_be_delayed,
     overrun,
@@ -167,13 +168,17 @@ def _long_executions(runtime: ObservedRuntime, timer: Timer) -> list[Execution]:
 def _stops(
     check: Property, runtime: ObservedRuntime, timer: Timer, free: int = 0, was_busy: bool = True
 ) -> Finding | None:
-    """After an execution that lasted for a period, or kept a callback out until ``free``: callbacks still come."""
+    """After an execution that lasted for a period, or kept a callback out until ``free``: callbacks still come, as long as there are rounds left."""
     assert timer.rate is not None
+    until = timer.until[1]
     if timer.most is not None:
-        return None  # what a bounded one does after that, its rounds tell
+        last = last_expiry(runtime, timer)
+        if last is None:
+            return None
+        until = min(until, last)
     ends = (e.left if e.over else timer.until[1] for e in _long_executions(runtime, timer))
     quiet_since = max([free, *(callback.t for callback in timer.callbacks[-1:]), *ends])
-    if timer.until[1] - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
+    if until - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
         return _untimely(check, runtime, timer, len(timer.callbacks), None, was_busy)
     return None
 

@@ -267,7 +267,7 @@ def _types(runtime: ObservedRuntime, found: Requests) -> tuple[object, object]:
 
 
 def _asker(asked: Asked | None) -> str:
-    return lane(*asked.call.request.body) if asked is not None else "another"
+    return asked.client.label if asked is not None else "another"
 
 
 def _shown(value: object) -> str:
@@ -282,7 +282,7 @@ def _violate(check: Property, requirement: str, cause: str, asked: Asked, expect
     server = lane(*entered[0].body) if entered else targets[0] if targets else "server"
     return check.fail(
         cause,
-        expected=f"the request {_shown(asked.value)} of '{client}' {expected}",
+        expected=f"the request {_shown(asked.value)} of '{asked.client.label}' {expected}",
         observed=observed,
         at=(request.n, *(e.n for e in entered), *((reply.n,) if reply is not None else ())),
         instead=(Arrow(client, server, "request"), Arrow(server, client, "response")),

@@ -295,7 +295,7 @@ def _was_open(asked: Asked, moment: int) -> bool:
 
 
 def _asker(asked: Asked | None) -> str:
-    return lane(*asked.call.request.body) if asked is not None else "another"
+    return asked.client.label if asked is not None else "another"
 
 
 def _shown(value: object) -> str:
@@ -311,7 +311,7 @@ def _violate(
     given = [answer.moment] if answer is not None else []
     return check.fail(
         cause,
-        expected=f"'{lane(*enter.body)}' {expected}",
+        expected=f"'{callback.client.label}' {expected}",
         observed=f"it {observed}",
         at=tuple(sorted({*before, *given, enter.n})),
         requirement=requirement,

@@ -12,7 +12,6 @@ from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.shared_data import all_shared_data, changes, is_disturbed
 from ucm_cts.reference_models.model.shared_data_events import (
     Publication,
@@ -24,7 +23,16 @@ from ucm_cts.reference_models.model.shared_data_events import (
     is_ok,
     written,
 )
-from ucm_cts.reference_models.model.shared_data_views import State, View, frozen_at, is_due, state_at, view_of, was_told
+from ucm_cts.reference_models.model.shared_data_views import (
+    State,
+    View,
+    frozen_at,
+    is_due,
+    may_be_frozen,
+    state_at,
+    view_of,
+    was_told,
+)
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _WRITERS, _READERS, _WHEN, _TWO_STEPS = "R-10.4.2-01", "R-10.4.2-02", "R-10.4.2-03", "R-10.4.2-04"
@@ -139,11 +147,13 @@ def _unpublished(check: Property, runtime: ObservedRuntime, one: Reading, readin
 
 
 def _is_late(runtime: ObservedRuntime, one: Reading) -> bool:
-    """Was the reader started after the last publication, while its writer stayed operational?"""
+    """Was the reader started after the last publication, while its writer stayed operational, and nobody's freeze kept that back?"""
     last = one.published[-1] if one.published else None
     reader = one.reader.end.member
     was_out = last is not None and any(end.member is reader and not ready for end, ready in last.call.targets)
     if last is None or not last.is_sure or not was_out or one.session is not None:
+        return False
+    if runtime.ics.permits("freeze-scope", "connection") and may_be_frozen(one.found, last.call):
         return False
     since = [o for o in changes(runtime, one.found.link) if o.begin.n > last.over and o.begin.n < one.call.request.n]
     return bool(since) and all(isinstance(o.step, Start) for o in since) and not one.view.arrived
@@ -394,7 +404,7 @@ def _violate(
     frozen = ", which is frozen," if one.state == "frozen" else ""
     return check.fail(
         cause,
-        expected=f"read_data of '{lane(*request.body)}'{frozen} {expected}",
+        expected=f"read_data of '{one.reader.end.label}'{frozen} {expected}",
         observed=f"it {observed}",
         at=tuple(sorted({*further, request.n, *((reply.n,) if reply is not None else ())})),
         requirement=requirement,

@@ -119,6 +119,10 @@ def _several() -> TestPurpose:
     cases.append(("a number in use", alone(timed(sporadic(5, 3, 1), sporadic(6, 2, 1), sporadic(5, 1, 2)), *used)))
     twice = timed(periodic(5, 1, 1, 1), sporadic(6, 2, 1), periodic(5, 1, 1, 2))
     cases.append(("a periodic number in use", alone(twice, *used)))
+    single = timed(periodic(5, 1, 1, 1), sporadic(5, 1, 2))
+    cases.append(("a periodic number in use, for one callback", alone(single, *used)))
+    endless = timed(sporadic(5, 2, 1), periodic(5, 1, 1, 2))
+    cases.append(("a number in use, from now on periodic", alone(endless, *used, after(1))))
     return purposes_about("several", "21 26 33 34 36", *cases)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, Literal
 
@@ -32,13 +32,16 @@ ELSEWHERE = "elsewhere"
 """Another container than the manager."""
 
 _TYPES = "exchange"
-_PORT = "ask"
+_PORT, _SECOND_PORT = "ask", "more"
 _LONG = Integer("LONG")
 _EACH = 100
 """The requests of one client are numbered from a multiple of this."""
 
 _GIVEN = 5000
 """Responses that a server makes up are numbered from here."""
+
+_ANSWER = 77
+"""With this number a server is called to answer; with following ones for its second answer and so on, if it gives them apart."""
 
 
 @dataclass
@@ -58,15 +61,22 @@ class Configuration(ConnectionSteps):
     requests: list[int] = field(default_factory=list)
     link: str = "first"
     links: list[str] = field(default_factory=list)
+    containers: list[str] = field(default_factory=list)
     awaited: int = 0
     is_running: bool = False
 
     def __post_init__(self) -> None:
         if self.server_place != s.MANAGER:
-            self.steps.append(s.CreateContainer(self.server_place))
+            self.container(self.server_place)
         self.connection(self.link)
 
     # the configuration
+
+    def container(self, name: str) -> Configuration:
+        """A further container."""
+        self.containers.append(name)
+        self.steps.append(s.CreateContainer(name))
+        return self
 
     def connection(self, link: str) -> Configuration:
         """A further connection, which servers and clients that follow belong to."""
@@ -87,11 +97,21 @@ class Configuration(ConnectionSteps):
         respond = s.CallMethod(f"{_PORT}.server_resp_p", RESPONSE, (value, 0), own)
         return self._server(kind, name, {"method": (*pass_by, self._at(ASKED), respond, s.Answer(REQUEST, (code,)))})
 
-    def storing(self, order: Sequence[int], name: str = "server", unknown: int | None = None) -> Configuration:
-        """An asynchronous server that answers when it is called, in ``order``; first with an ``unknown`` identifier, if there is one."""
+    def storing(
+        self, order: Sequence[int], name: str = "server", unknown: int | None = None, apart: bool = False
+    ) -> Configuration:
+        """An asynchronous server that answers when it is called, in ``order``: all at once, or ``apart``, one at each call; first with an
+        ``unknown`` identifier, if there is one.
+        """
         port = f"{_PORT}.server_resp_p"
         calls = [
-            s.CallMethod(port, RESPONSE, (_GIVEN + 10 * nth + index, 0), (s.Remembered(1, REQUEST, 1, nth),))
+            s.CallMethod(
+                port,
+                RESPONSE,
+                (_GIVEN + 10 * nth + index, 0),
+                (s.Remembered(1, REQUEST, 1, nth),),
+                given=_ANSWER + index if apart else None,
+            )
             for index, nth in enumerate(order)
         ]
         if unknown is not None:
@@ -107,14 +127,25 @@ class Configuration(ConnectionSteps):
         return self._server(kind, "server", {"method": (self._at(ASKED), s.RaiseError())})
 
     def clients(
-        self, kinds: Sequence[Kind], requests: int, policies: tuple[Policy, ...] = (), holds: bool = False
+        self,
+        kinds: Sequence[Kind],
+        requests: int,
+        policies: tuple[Policy, ...] = (),
+        holds: bool = False,
+        second: str = "",
+        place: str = s.MANAGER,
     ) -> Configuration:
-        """Clients that make so many requests each when they are called; ``holds``: and are held afterwards."""
+        """Clients that make so many requests each when they are called.
+
+        ``holds``: and are held afterwards. ``second``: the connection of a second port of each, through which they make as many.
+        """
         for kind in kinds:
             number = len(self.kinds)
             element = "client_p" if kind == SYNCHRONOUS else "client_req_p"
+            links = {_PORT: self.link, **({_SECOND_PORT: second} if second else {})}
             asks: list[Action] = [
-                s.CallMethod(f"{_PORT}.{element}", REQUEST, (self._request(number, index),))
+                s.CallMethod(f"{port}.{element}", REQUEST, (self._request(number, nth * requests + index),))
+                for nth, port in enumerate(links)
                 for index in range(requests)
             ]
             plan: dict[Hook, tuple[Action, ...]] = {
@@ -123,9 +154,9 @@ class Configuration(ConnectionSteps):
             }
             if kind == SYNCHRONOUS:
                 del plan["method"]
-            self._add(f"client {number}", f"rr_{kind}_client", plan, s.MANAGER, policies)
+            self._add(f"client {number}", f"rr_{kind}_client", plan, place, policies, links)
             self.kinds.append(kind)
-            self.requests.append(requests)
+            self.requests.append(len(asks))
         return self
 
     # what happens
@@ -146,6 +177,11 @@ class Configuration(ConnectionSteps):
     def restart(self) -> Configuration:
         """Stop and start all."""
         return self.stop().start()
+
+    def start_only(self, place: str) -> Configuration:
+        """Start one container."""
+        self.steps.append(s.Start(place))
+        return self
 
     def stop_only(self, place: str) -> Configuration:
         """Stop one container."""
@@ -211,7 +247,11 @@ class Configuration(ConnectionSteps):
 
     def answer(self, callbacks: int, server: str = "server") -> Configuration:
         """A storing server answers; wait for so many callbacks."""
-        self.steps.append(s.Invoke(f"tell {server}", 77))
+        return self.answer_next(0, callbacks, server)
+
+    def answer_next(self, nth: int, callbacks: int, server: str = "server") -> Configuration:
+        """A server that answers apart gives its ``nth`` answer, from 0; wait for so many callbacks."""
+        self.steps.append(s.Invoke(f"tell {server}", _ANSWER + nth))
         return self.answered(callbacks)
 
     def open(self, gate: str) -> Configuration:
@@ -243,31 +283,38 @@ class Configuration(ConnectionSteps):
         return self
 
     def _add(
-        self, name: str, role: str, plan: dict[Hook, tuple[Action, ...]], place: str, policies: tuple[Policy, ...] = ()
+        self,
+        name: str,
+        role: str,
+        plan: dict[Hook, tuple[Action, ...]],
+        place: str,
+        policies: tuple[Policy, ...] = (),
+        links: Mapping[str, str] | None = None,
     ) -> None:
-        """A component with a port of that kind, and a port by which the test calls it."""
+        """A component with a port by which the test calls it, and one of that kind, or those of ``links``, with their connections."""
+        links = links or {_PORT: self.link}
         elements = CONNECTOR_PORTS[role].elements
+        ports = {f"{port}.{e.name}": e for port in links for e in elements}
         declaration = Declaration(
-            ("in.api", *(f"{_PORT}.{e.name}" for e in elements if e.provided)),
-            tuple(f"{_PORT}.{e.name}" for e in elements if not e.provided),
+            ("in.api", *(port for port, e in ports.items() if e.provided)),
+            tuple(port for port, e in ports.items() if not e.provided),
             plan=plan,
             policies=policies,
-            ports={f"{_PORT}.{e.name}": f"{_TYPES}.{e.interface}" for e in elements},
+            ports={port: f"{_TYPES}.{e.interface}" for port, e in ports.items()},
         )
         self.components[name] = declaration
+        tell = name.replace("client", "tell") if "client" in name else f"tell {name}"
         self.steps += [
             s.AddComponent(name, place),
-            s.Attach(self.link, role, name, _PORT, place),  # type: ignore[arg-type]
-            s.GetPortElement(
-                name, "in.api", name.replace("client", "tell") if "client" in name else f"tell {name}", place
-            ),
+            *(s.Attach(link, role, name, port, place) for port, link in links.items()),  # type: ignore[arg-type]
+            s.GetPortElement(name, "in.api", tell, place),
         ]
 
     def _request(self, client: int, index: int) -> Datum:
         return self.values[0][0] if self.values is not None else (client + 1) * _EACH + index
 
     def _places(self) -> list[str]:
-        return [s.MANAGER] if self.server_place == s.MANAGER else [self.server_place, s.MANAGER]
+        return [*self.containers, s.MANAGER]
 
     def _gates(self) -> list[str]:
         plans = [a for c in self.components.values() for plan in c.plan.values() for a in plan]

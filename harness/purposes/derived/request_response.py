@@ -61,6 +61,7 @@ def request_purposes() -> list[TestPurpose]:
         _servers(),
         _identifiers(),
         _apart(),
+        _ports(),
         _protected(),
         _faults(),
         _failing(),
@@ -133,6 +134,11 @@ def _waiting() -> TestPurpose:
     made = Configuration().storing((2, 1)).clients((SYNCHRONOUS, SYNCHRONOUS), 1).start()
     made.ask_apart(0).entered(1).settle(0).ask_apart(1).entered(2).settle(1).answer(0).join(0, 1)
     scenarios.append(("two synchronous clients wait, answered in the order 2, 1", made.end()))
+    made = Configuration().storing((2, 3, 1), apart=True).clients((SYNCHRONOUS,) * 3, 1).start()
+    for number in range(3):
+        made.ask_apart(number).entered(number + 1)
+    made.answer_next(0, 0).join(1).settle(0).settle(2).answer_next(1, 0).join(2).settle(0).answer_next(2, 0).join(0)
+    scenarios.append(("three synchronous clients wait, answered one by one", made.end()))
     made = Configuration().storing((2, 1)).clients((SYNCHRONOUS, ASYNCHRONOUS), 1).start()
     made.ask_apart(0).entered(1).settle(0).ask_all(1).entered(2).answer(1).join(0, 1)
     scenarios.append(("one waits and one goes on, answered in the order 2, 1", made.end()))
@@ -196,6 +202,23 @@ def _apart() -> TestPurpose:
     return _purpose("apart", text, "2-20", scenarios)
 
 
+def _ports() -> TestPurpose:
+    """A component has two ports of one connection, or one of each of two."""
+    scenarios = []
+    for kind in KINDS:
+        made = Configuration().server(ASYNCHRONOUS).clients((kind, kind), 2, second="first").start()
+        made.ask(0).ask(1).restart().ask(0)
+        scenarios.append((f"{kind} clients, one connection", made.end()))
+        made = Configuration().server(ASYNCHRONOUS).connection("second").server(SYNCHRONOUS, name="other")
+        made.clients((kind, kind), 2, second="first").start().ask(0).ask(1)
+        scenarios.append((f"{kind} clients, two connections", made.end()))
+    made = Configuration().storing((4, 2, 3, 1)).clients((ASYNCHRONOUS,), 2, second="first").start()
+    made.ask_all(0).entered(4).answer(4).join(0)
+    scenarios.append(("stored, one connection", made.end()))
+    text = "Clients have two ports, of one connection or of two."
+    return _purpose("ports", text, "1-08 2-07 2-10 2-13 2-20", scenarios)
+
+
 def _protected() -> TestPurpose:
     """A response is given while its client is executed."""
     scenarios = []
@@ -254,5 +277,13 @@ def _phases() -> TestPurpose:
     made.ask_all(0, 1).entered(2).join(0, 1).stop().remove(0)
     made.start().ask_all(2).entered(3).join(2)
     scenarios.append(("a client with an open request is removed", made.end()))
+    made = Configuration().container(ELSEWHERE).storing((2, 1)).clients((ASYNCHRONOUS,), 2)
+    made.clients((ASYNCHRONOUS,), 1, place=ELSEWHERE).start().ask_all(0).entered(2).join(0).stop_only(ELSEWHERE)
+    made.answer(2).start_only(ELSEWHERE).ask_all(1).entered(3).join(1)
+    scenarios.append(("another client's container is stopped", made.end()))
+    made = Configuration().container(ELSEWHERE).storing((1, 2), apart=True).clients((SYNCHRONOUS,), 1)
+    made.clients((ASYNCHRONOUS,), 1, place=ELSEWHERE).start().ask_apart(0).entered(1).ask_all(1).entered(2).join(1)
+    made.stop_only(ELSEWHERE).settle(0).answer_next(0, 0).join(0)
+    scenarios.append(("another client's container is stopped while one waits", made.end()))
     text = "Requests are open when a client or the server is stopped or removed."
     return _purpose("phases", text, "2-19 2-21", scenarios)

@@ -57,6 +57,7 @@ def shared_data_purposes() -> list[TestPurpose]:
         _protected(),
         _types(),
         _apart(),
+        _ports(),
         _faults(),
         _phases(),
     ]
@@ -349,6 +350,23 @@ def _apart() -> TestPurpose:
     scenarios.append(("freezes and cancellations of two connections", made.end()))
     text = "Two connections of one type have writers and readers of their own."
     return _purpose("apart", text, ".2-07", scenarios)
+
+
+def _ports() -> TestPurpose:
+    """A component has two ports of one connection, or one of each of two."""
+    made = Configuration().connection().writer().reader().reader(of_reader=0).reader().start().update().read().freeze(0)
+    made.read().update(of=(2,)).pause(_QUIET).read().freeze(1).release(0).update(of=(2,)).pause(_QUIET).read()
+    scenarios = [("one of two ports of a reader is frozen", made.release(1).update(of=(2,)).pause(_QUIET).read().end())]
+    made = Configuration().connection().writer().reader().connection("second").writer().reader(of_reader=0).reader()
+    made.start().update(0, of=(0,)).update(1, of=(1, 2)).read().freeze(0).update(1, of=(2,)).pause(_QUIET).read()
+    made.update(0, of=()).pause(_QUIET).read().release(0).write(0).publish(1).publish(0).pause(_QUIET).read()
+    scenarios.append(("ports of two connections, one frozen", made.end()))
+    made = Configuration().connection().writer().writer(of_writer=0).reader().reader().start().update(0).update(1)
+    made.read().write(0).write(1).publish(1).await_told(0, 1).read().publish(0).await_told(0, 1).read()
+    made.write(0).write(1).cancel(0).publish(1).await_told(0, 1).read()
+    scenarios.append(("a writer has two ports", made.end()))
+    text = "Readers and writers have two ports, of one connection or of two."
+    return _purpose("ports", text, ".2-06 .2-07 2-02 2-06 2-09 2-10", scenarios)
 
 
 def _faults() -> TestPurpose:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import Final, Literal
 
@@ -34,7 +35,7 @@ _OUT, _IN = "set", "get"
 """The ports of writers and of readers."""
 
 _ORDERS: Final = {PUBLISH: 11, CANCEL: 12, FREEZE: 13, RELEASE: 14, READ: 15}
-"""What a component is called with to call that method."""
+"""What a component is called with to call that method, through its first port of that kind; ten more for the next port."""
 
 _FIRST_WRITE = 100
 """To write its first value, a writer is called with this number, and with following ones for following values."""
@@ -54,6 +55,29 @@ class _Part:
     ports: dict[str, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class Port:
+    """A port of a writer or of a reader.
+
+    ``of``: the name of its component. ``number``: from 0, among the ports of that kind that the component has.
+    ``told``: the gate that the component passes when it is notified.
+    """
+
+    of: str
+    port: str
+    number: int
+    told: str = ""
+
+    def order(self, method: str) -> int:
+        """What its component is called with to call ``method`` through it."""
+        return _ORDERS[method] + 10 * self.number
+
+    def call(self, method: str) -> Action:
+        """The call of ``method`` through it, upon that order."""
+        element = "writer_p" if self.port.startswith(_OUT) else "reader_p"
+        return s.CallMethod(f"{self.port}.{element}", method, given=self.order(method))
+
+
 @dataclass
 class Configuration(ConnectionSteps):
     """A scenario under construction. Writers and readers have numbers, from 0, in the order in which they were added.
@@ -67,9 +91,9 @@ class Configuration(ConnectionSteps):
     patience: int = 2000
     steps: list[Step] = field(default_factory=list)
     parts: dict[str, _Part] = field(default_factory=dict)
-    writers: list[str] = field(default_factory=list)
-    readers: list[str] = field(default_factory=list)
-    told: list[int] = field(default_factory=list)
+    writers: list[Port] = field(default_factory=list)
+    readers: list[Port] = field(default_factory=list)
+    told: Counter[str] = field(default_factory=Counter)
     written: int = 0
     link: str = ""
     is_running: bool = False
@@ -87,13 +111,16 @@ class Configuration(ConnectionSteps):
         self.steps.append(s.CreateContainer(ELSEWHERE))
         return self
 
-    def writer(self, place: str = s.MANAGER) -> Configuration:
-        """A writer."""
-        name = f"writer {len(self.writers)}"
-        self._component(name, place)
-        self._port(name, "sd_writer", _OUT, {"writer_p": ("data_writer", False)})
-        self.writers.append(name)
-        self.parts[name].calls += [self._call(f"{_OUT}.writer_p", method) for method in (PUBLISH, CANCEL)]
+    def writer(self, place: str = s.MANAGER, of_writer: int | None = None) -> Configuration:
+        """A writer, or a further port of one."""
+        name = f"writer {len(self.writers)}" if of_writer is None else self.writers[of_writer].of
+        if of_writer is None:
+            self._component(name, place)
+        number = sum(other.of == name for other in self.writers)
+        port = Port(name, f"{_OUT}{number or ''}", number)
+        self._port(port, "sd_writer", {"writer_p": ("data_writer", False)})
+        self.writers.append(port)
+        self.parts[name].calls += map(port.call, (PUBLISH, CANCEL))
         return self
 
     def reader(
@@ -101,32 +128,43 @@ class Configuration(ConnectionSteps):
         place: str = s.MANAGER,
         policies: tuple[Policy, ...] = (),
         of_writer: int | None = None,
+        of_reader: int | None = None,
         reads_inside: bool = False,
         held: bool = False,
     ) -> Configuration:
-        """A reader, or a further port of a writer. ``reads_inside``: it reads in each notification, too; ``held``: it is held inside
-        ``exchange``, after what it does there.
+        """A reader, or a further port of a writer or of a reader, which is told with it. ``reads_inside``: it reads in each notification, too;
+        ``held``: it is held inside ``exchange``, after what it does there.
         """
-        number = len(self.readers)
-        name = f"reader {number}" if of_writer is None else self.writers[of_writer]
-        if of_writer is None:
+        name, told = f"reader {len(self.readers)}", f"told {len(self.readers)}"
+        if of_reader is not None:
+            name, told = self.readers[of_reader].of, self.readers[of_reader].told
+        elif of_writer is not None:
+            name = self.writers[of_writer].of
+        else:
             self._component(name, place, policies)
+        number = sum(other.of == name for other in self.readers)
+        port = Port(name, f"{_IN}{number or ''}", number, told)
         elements = {"reader_p": ("data_reader", False), "notification_p": ("data_notification", True)}
-        self._port(name, "sd_reader", _IN, elements)
-        self.readers.append(name)
-        self.told.append(0)
+        self._port(port, "sd_reader", elements)
+        self.readers.append(port)
         part = self.parts[name]
         part.held = held
-        part.calls += [self._call(f"{_IN}.reader_p", method) for method in (FREEZE, RELEASE, READ)]
-        reads: list[Action] = [s.CallMethod(f"{_IN}.reader_p", READ)] if reads_inside else []
-        part.entered += [*reads, s.HoldAtGate(self._gate(number)), s.Answer(NOTIFY, ())]
+        part.calls += map(port.call, (FREEZE, RELEASE, READ))
+        if of_reader is None:
+            reads: list[Action] = [s.CallMethod(f"{port.port}.reader_p", READ)] if reads_inside else []
+            part.entered += [*reads, s.HoldAtGate(told), s.Answer(NOTIFY, ())]
         return self
+
+    def place_of(self, port: Port) -> str:
+        """The container of a writer or a reader."""
+        return self.parts[port.of].place
 
     def calls_inside(self, reader: int, method: str) -> Configuration:
         """A reader calls ``method`` in each notification, after what it calls there already."""
-        entered = self.parts[self.readers[reader]].entered
+        port = self.readers[reader]
+        entered = self.parts[port.of].entered
         calls = [action for action in entered if isinstance(action, s.CallMethod)]
-        entered.insert(len(calls), s.CallMethod(f"{_IN}.reader_p", method))
+        entered.insert(len(calls), s.CallMethod(f"{port.port}.reader_p", method))
         return self
 
     # what happens
@@ -134,7 +172,7 @@ class Configuration(ConnectionSteps):
     def start(self, *places: str) -> Configuration:
         """Start all, or these containers; the first time gates open that bodies only pass."""
         if not self.is_running:
-            self.steps += [s.OpenGate(self._gate(number)) for number in range(len(self.readers))]
+            self.steps += map(s.OpenGate, dict.fromkeys(reader.told for reader in self.readers))
         self.is_running = True
         self.steps += map(s.Start, places or self._places())
         return self
@@ -146,13 +184,13 @@ class Configuration(ConnectionSteps):
 
     def write(self, writer: int = 0, times: int = 1) -> Configuration:
         """A writer sets a value, several times another one."""
-        name = self.writers[writer]
+        port = self.writers[writer]
         for _ in range(times):
             value = self.values[self.written] if self.values else 1000 * (writer + 1) + self.written
             order = _FIRST_WRITE + self.written
-            self.parts[name].calls.append(s.CallMethod(f"{_OUT}.writer_p", WRITE, (value,), given=order))
+            self.parts[port.of].calls.append(s.CallMethod(f"{port.port}.writer_p", WRITE, (value,), given=order))
             self.written += 1
-            self.steps.append(s.Invoke(f"tell {name}", order))
+            self.steps.append(s.Invoke(f"tell {port.of}", order))
         return self
 
     def publish(self, writer: int = 0) -> Configuration:
@@ -190,13 +228,15 @@ class Configuration(ConnectionSteps):
     def await_told(self, *readers: int, times: int = 1) -> Configuration:
         """Wait until each of these readers has been notified so many times more."""
         for reader in readers:
-            self.told[reader] += times
-            self.steps.append(s.ReachGate(self._gate(reader), total=self.told[reader]))
+            gate = self.readers[reader].told
+            self.told[gate] += times
+            self.steps.append(s.ReachGate(gate, total=self.told[gate]))
         return self
 
     def listen(self, reader: int) -> Configuration:
         """Wait for a further notification that may come or not."""
-        self.steps.append(s.ReachGate(self._gate(reader), total=self.told[reader] + 1))
+        gate = self.readers[reader].told
+        self.steps.append(s.ReachGate(gate, total=self.told[gate] + 1))
         return self
 
     def wait_in_vain(self) -> Configuration:
@@ -208,28 +248,29 @@ class Configuration(ConnectionSteps):
         """Writers or readers do this at once, each on a thread of its own; wait for all of them."""
         threads = []
         for what, number in orders:
-            name = (self.readers if what == "read" else self.writers)[number]
+            port = (self.readers if what == "read" else self.writers)[number]
             threads.append(f"{what} {number}")
-            order = _ORDERS[READ if what == "read" else PUBLISH]
-            self.steps.append(s.Invoke(f"tell {name}", order, thread=threads[-1]))
+            order = port.order(READ if what == "read" else PUBLISH)
+            self.steps.append(s.Invoke(f"tell {port.of}", order, thread=threads[-1]))
         self.steps += map(s.Join, threads)
         return self
 
     def enter(self, reader: int) -> Configuration:
         """A reader that is held inside is called, on a thread of its own."""
-        name = self.readers[reader]
-        self.steps += [s.Invoke(f"tell {name}", _ORDERS[READ], thread=f"inside {name}"), s.ReachGate(INSIDE, total=1)]
+        port = self.readers[reader]
+        inside = s.Invoke(f"tell {port.of}", port.order(READ), thread=f"inside {port.of}")
+        self.steps += [inside, s.ReachGate(INSIDE, total=1)]
         return self
 
     def leave(self, reader: int) -> Configuration:
         """It is let go."""
-        self.steps += [s.OpenGate(INSIDE), s.Join(f"inside {self.readers[reader]}")]
+        self.steps += [s.OpenGate(INSIDE), s.Join(f"inside {self.readers[reader].of}")]
         return self
 
     def remove(self, reader: int) -> Configuration:
         """Detach and remove a reader; all are stopped."""
-        name = self.readers[reader]
-        self.steps += [s.Detach(self.link, name, _IN), s.RemoveComponent(name)]
+        port = self.readers[reader]
+        self.steps += [s.Detach(self.link, port.of, port.port), s.RemoveComponent(port.of)]
         return self
 
     def end(self) -> Scenario:
@@ -260,25 +301,17 @@ class Configuration(ConnectionSteps):
         self.parts[name] = _Part(place, policies)
         self.steps += [s.AddComponent(name, place), s.GetPortElement(name, "in.api", f"tell {name}", place)]
 
-    def _port(self, name: str, role: str, port: str, elements: dict[str, tuple[str, bool]]) -> None:
-        part = self.parts[name]
+    def _port(self, port: Port, role: str, elements: dict[str, tuple[str, bool]]) -> None:
+        part = self.parts[port.of]
         for element, (interface, provided) in elements.items():
-            (part.provides if provided else part.requires).append(f"{port}.{element}")
-            part.ports[f"{port}.{element}"] = f"{_TYPES}.{interface}"
-        self.steps.append(s.Attach(self.link, role, name, port, part.place))  # type: ignore[arg-type]
+            (part.provides if provided else part.requires).append(f"{port.port}.{element}")
+            part.ports[f"{port.port}.{element}"] = f"{_TYPES}.{interface}"
+        self.steps.append(s.Attach(self.link, role, port.of, port.port, part.place))  # type: ignore[arg-type]
 
-    def _order(self, name: str, method: str) -> Configuration:
-        self.steps.append(s.Invoke(f"tell {name}", _ORDERS[method]))
+    def _order(self, port: Port, method: str) -> Configuration:
+        self.steps.append(s.Invoke(f"tell {port.of}", port.order(method)))
         return self
 
     def _places(self) -> list[str]:
         has_another = any(isinstance(step, s.CreateContainer) for step in self.steps)
         return [ELSEWHERE, s.MANAGER] if has_another else [s.MANAGER]
-
-    @staticmethod
-    def _call(port: str, method: str) -> Action:
-        return s.CallMethod(port, method, given=_ORDERS[method])
-
-    @staticmethod
-    def _gate(reader: int) -> str:
-        return f"told {reader}"

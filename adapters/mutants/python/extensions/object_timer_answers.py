@@ -264,3 +264,17 @@ def says_never_cancelled_of_repeated_objects(self: ScheduledTimer, own: bool) ->
 def renames_cancelled_timers(self: ScheduledTimer, own: str) -> str:
     """The identifier changes when the timer is cancelled."""
     return f"cancelled {own}" if self.is_cancelled() else own
+
+
+@breaks("R-10.3.1-33", clauses=TRIGGERED)
+class remembers_cancellation_by_reference(ScheduledTimer):
+    """is_cancelled gives true for the reference through which the timer was cancelled only."""
+
+    was_cancelled = False
+
+    def cancel(self) -> None:
+        self.was_cancelled = self.timer.number in self.triggers._waiting
+        super().cancel()
+
+    def is_cancelled(self) -> bool:
+        return self.was_cancelled

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.data_values import a_value
@@ -10,6 +11,7 @@ from ucm_cts.adapters.contract.platform_interfaces import RESPONSE, RESPONSE_DAT
 from ucm_cts.adapters.mutants.python.methods import does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import REQUESTS, Base, breaks
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK
+from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.port_links import End
 from ucm_cts.adapters.reference.python.request_response import OpenRequest, RequestResponseLink
 
@@ -36,6 +38,29 @@ class answers_the_first_client(Link):
         first = next(end for end in self.ends if end.kind.name == "rr_asynchronous_client")
         assert first.taker is not None
         first.taker.enter(RESPONSE, [response, opened.number])
+
+
+@breaks("R-10.4.1.2-13", clauses=REQUESTS, also=("R-10.4.1.2-07", "R-10.4.1.2-20"))
+class answers_the_first_port(Link):
+    """A response goes to the first port of the component that asked."""
+
+    def _call_back(self, opened: OpenRequest, response: Datum) -> None:
+        ports = [end for end in self.ends if end.member is opened.client.member and end.taker is not None]
+        super()._call_back(replace(opened, client=ports[0] if ports else opened.client), response)
+
+
+@breaks("R-10.4.1.2-02", clauses=REQUESTS, also=("R-10.4.1.2-03", "R-10.4.1.1-08"))
+class wakes_all_who_wait(Link):
+    """A response wakes all synchronous clients that wait, and all of them get it."""
+
+    def _respond(self, response: Datum, number: Datum) -> str:
+        waiting = [one for one in self.requests.values() if one.client.kind.provided is None]
+        code = super()._respond(response, number)
+        if any(one.number == number for one in waiting):
+            for one in waiting:
+                (one.response,) = self._copied([response])
+                one.given.set()
+        return code
 
 
 @replaces("_call_back", "R-10.4.1.2-07", clauses=REQUESTS, also=("R-10.4.1.2-17",))
@@ -216,6 +241,31 @@ class answers_stopped_clients(Base):
             element = taker.member.body.get_portElement(taker.port) if taker is not None else None
             if element is not None:
                 threading.Timer(0.01, element.call, (RESPONSE, [nothing, one.number])).start()
+
+
+@breaks("R-10.4.1.2-11", clauses=REQUESTS)
+class drops_all_with_one_client(Link):
+    """What is open for any client is dropped when one of them is stopped."""
+
+    def abandon(self, member: Member) -> None:
+        if any(end.member is member for end in self.ends):
+            for request in list(self.requests.values()):
+                self._drop(request)
+
+
+@breaks("R-10.4.1.2-08", "R-10.4.1.1-10", clauses=REQUESTS, also=("R-10.4.1.2-09",))
+class calls_back_nobody_after_a_stop(Link):
+    """When one client has been stopped, responses to others are taken and do not come."""
+
+    has_stopped = False
+
+    def abandon(self, member: Member) -> None:
+        super().abandon(member)
+        self.has_stopped |= any(end.member is member for end in self.ends)
+
+    def _call_back(self, opened: OpenRequest, response: Datum) -> None:
+        if not self.has_stopped:
+            super()._call_back(opened, response)
 
 
 @breaks("R-10.4.1.2-21", clauses=REQUESTS)

@@ -61,6 +61,24 @@ class freezes_all_readers(Link):
         return OK
 
 
+@breaks("R-10.4.2.2-10", clauses=SHARED, also=("R-10.4.2.2-09",))
+class freezes_components(Link):
+    """A freeze holds all ports of its component, until one of them is released."""
+
+    def freeze(self, end: End) -> str:
+        for reader in self._readers_of(end):
+            self._view(reader).frozen = True
+        return OK
+
+    def release(self, end: End) -> str:
+        for reader in self._readers_of(end):
+            super().release(reader)
+        return OK
+
+    def _readers_of(self, end: End) -> list[End]:
+        return [one for one in self.ends if one.kind.side == "reader" and one.member is end.member]
+
+
 @breaks("R-10.4.2.2-11", clauses=SHARED, also=("R-10.4.2.2-10", "R-10.4.2.2-14"))
 class waits_for_readers(Link):
     """A publication waits until no reader is frozen."""

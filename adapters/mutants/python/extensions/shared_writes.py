@@ -356,3 +356,20 @@ class sends_nothing_after_a_restart(Base):
         for link in self.manager.extended_links:
             if isinstance(link, SharedDataLink):
                 link.__dict__["_send"] = lambda value: None
+
+
+@breaks("R-10.4.2.2-22", clauses=SHARED, also=("R-10.4.2.2-02",))
+class has_one_value_for_a_component(Link):
+    """Ports of one component that are writers set one value, and publish or cancel that."""
+
+    def write(self, end: End, value: Datum) -> str:
+        return super().write(self._first_port(end), value)
+
+    def publish(self, end: End) -> str:
+        return super().publish(self._first_port(end))
+
+    def cancel(self, end: End) -> str:
+        return super().cancel(self._first_port(end))
+
+    def _first_port(self, end: End) -> End:
+        return next(one for one in self.ends if one.member is end.member and one.kind.side == "writer")

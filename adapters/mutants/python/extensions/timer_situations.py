@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
 
 from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
 from ucm_cts.adapters.mutants.python.variants.triggered_apart import EndsTimersThatRaise
@@ -95,3 +96,22 @@ class serves_what_waited_when_it_stopped(Base):
 
         with suppress(Exception):
             self._execute_callback(member, enter)
+
+
+@breaks("R-10.3.2-29", clauses=TIMED)
+class keeps_the_rate_of_a_number(Timers):
+    """A sporadic timer that is started under the number of a periodic one that waits repeats at its rate."""
+
+    def _start(self, timer: Timer) -> None:
+        before = self._waiting.get(timer.number)
+        repeats = before is not None and before.rate is not None and timer.rate is None
+        super()._start(replace(timer, rate=before.rate) if before is not None and repeats else timer)
+
+
+@breaks("R-10.3.2-33", clauses=TIMED, also=MISSING_CALLBACKS)
+class keeps_the_kind_of_a_number(Timers):
+    """A periodic timer that is started under the number of a sporadic one that waits calls back once."""
+
+    def _start(self, timer: Timer) -> None:
+        before = self._waiting.get(timer.number)
+        super()._start(replace(timer, rate=None) if before is not None and before.rate is None else timer)
