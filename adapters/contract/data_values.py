@@ -230,9 +230,10 @@ def printed(value: object, longest: int = 0) -> str:
 def read_spelled(text: str | None) -> d.Datum | None:
     """The value that ``text`` spells; None if it is any other text."""
     try:
-        return msgspec.json.decode(text or "", type=d.Datum)  # type: ignore[no-any-return]
+        value: d.Datum = msgspec.json.decode(text or "", type=d.Datum)
     except msgspec.MsgspecError:
         return None
+    return value
 
 
 def kind_name(of: d.AnyType) -> str:

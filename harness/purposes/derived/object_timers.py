@@ -207,14 +207,18 @@ def _cancel() -> TestPurpose:
     cases.append(("of a repeated one by another call", alone(stopped, tell(1), s.Pause(400), tell(2), after(1.2))))
     returned = scheduling(repeated(0.4, 0.3, 3, 1), made(s.CANCEL, 1, 2, s.SCHEDULE_REPEATED))
     cases.append(("of a repeated one that came back", alone(returned, tell(1), tell(2), after(1.1))))
-    both_ways = (
-        (own(s.CANCEL, 2, 2), made(s.IS_CANCELLED, 1, 3, s.SCHEDULE_REPEATED)),
-        (made(s.CANCEL, 1, 2, s.SCHEDULE_REPEATED), own(s.IS_CANCELLED, 1, 3)),
-    )
-    for name, orders in zip(
-        ("handed over, asked of the one returned", "returned, asked of the one handed over"), both_ways, strict=True
-    ):
-        waiting = scheduling(repeated(0.2, 0.3, 5, 1), *orders, on_trigger=())
+    asked_apart = {
+        "handed over, asked of the one returned": (
+            own(s.CANCEL, 2, 2),
+            made(s.IS_CANCELLED, 1, 3, s.SCHEDULE_REPEATED),
+        ),
+        "returned, asked of the one handed over": (
+            made(s.CANCEL, 1, 2, s.SCHEDULE_REPEATED),
+            own(s.IS_CANCELLED, 1, 3),
+        ),
+    }
+    for name, pair in asked_apart.items():
+        waiting = scheduling(repeated(0.2, 0.3, 5, 1), *pair, on_trigger=())
         cases.append((f"of the one {name}", alone(waiting, tell(1), s.Pause(550), tell(3), tell(2), tell(3), after(1))))
     lasting = scheduling(
         repeated(0.3, 0.3, 6, 1),

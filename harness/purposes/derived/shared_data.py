@@ -8,22 +8,21 @@ later.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.platform_interfaces import FREEZE, READ
-from ucm_cts.adapters.contract.scenario import Policy, Scenario
-from ucm_cts.harness.purposes.derived.shared_data_configuration import ELSEWHERE, Configuration
+from ucm_cts.adapters.contract.scenario import Policy
+from ucm_cts.harness.purposes.derived.shared_data_configuration import (
+    BRIEF,
+    ELSEWHERE,
+    QUIET,
+    Configuration,
+    joined,
+    purpose_about,
+)
+from ucm_cts.harness.purposes.derived.shared_data_freezes import freeze_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose
-
-_CLAUSE = "10.4.2"
-
-_BRIEF = 600
-"""Milliseconds of patience where something is waited for in vain."""
-
-_QUIET = 50
-"""Milliseconds in which nothing is to come."""
 
 _RECORD = d.Structure(
     "reading", {"number": d.Integer("LONGLONG"), "name": d.String("CHAR8"), "levels": d.Sequence(d.Integer("SHORT"))}
@@ -49,9 +48,7 @@ def shared_data_purposes() -> list[TestPurpose]:
         _participants(),
         _steps(),
         _cancelling(),
-        _unpublished(),
-        _freezing(),
-        _releasing(),
+        *freeze_purposes(),
         _writers(),
         _notifications(),
         _protected(),
@@ -63,55 +60,36 @@ def shared_data_purposes() -> list[TestPurpose]:
     ]
 
 
-def _purpose(name: str, text: str, requirements: str, scenarios: Sequence[tuple[str, Scenario]]) -> TestPurpose:
-    ids = tuple(f"R-10.4{one}" if one.startswith((".", "-")) else f"R-10.4.2.{one}" for one in requirements.split())
-    cases = tuple((f"shared data/{n}", one) for n, one in scenarios)
-    return TestPurpose(f"shared data/{name}", _CLAUSE, text, ids, cases)
-
-
-def _with(writers: int, readers: int, elsewhere: bool = False, patience: int = 0) -> Configuration:
-    """A connection with so many writers and readers; ``elsewhere``: every second reader is in another container."""
-    made = Configuration(patience=patience) if patience else Configuration()
-    if elsewhere:
-        made.container()
-    made.connection()
-    for _ in range(writers):
-        made.writer()
-    for number in range(readers):
-        made.reader(ELSEWHERE if elsewhere and number % 2 == 0 else s.MANAGER)
-    return made
-
-
 def _returning() -> TestPurpose:
     """Readers and writers are called on threads of their own, as a call may not come back."""
-    made = _with(1, 2).start().update().apart(("read", 0)).apart(("read", 0), ("read", 1))
+    made = joined(1, 2).start().update().apart(("read", 0)).apart(("read", 0), ("read", 1))
     scenarios = [("read twice", made.end())]
-    made = _with(1, 2).start().update().freeze(0).write().apart(("publish", 0)).release(0).update(of=(1,))
+    made = joined(1, 2).start().update().freeze(0).write().apart(("publish", 0)).release(0).update(of=(1,))
     scenarios.append(("published to a frozen reader", made.end()))
-    made = _with(1, 2).start().update().freeze(0, 1).write().apart(("publish", 0)).apart(("read", 0), ("read", 1))
+    made = joined(1, 2).start().update().freeze(0, 1).write().apart(("publish", 0)).apart(("read", 0), ("read", 1))
     scenarios.append(("published to frozen readers only", made.release(0, 1).end()))
     text = "Readers read twice, and writers publish while readers are frozen."
-    return _purpose("returning", text, ".2-03 2-11 2-14", scenarios)
+    return purpose_about("returning", text, ".2-03 2-11 2-14", scenarios)
 
 
 def _participants() -> TestPurpose:
     """Each writer publishes, each reader reads, before and after a restart."""
     scenarios = []
     for writers, readers, elsewhere in itertools.product((1, 2), (1, 3), (False, True)):
-        made = _with(writers, readers, elsewhere).start()
+        made = joined(writers, readers, elsewhere).start()
         for writer in range(writers):
             made.update(writer).read().read()
         made.freeze().read().release().cancel().stop().start()
         for writer in reversed(range(writers)):
-            made.write(writer).publish(writer).pause(_QUIET).update(writer).read()
+            made.write(writer).publish(writer).pause(QUIET).update(writer).read()
         where = ", readers in two containers" if elsewhere else ""
         scenarios.append((f"{writers} writers, {readers} readers{where}", made.end()))
-    made = _with(3, 4).start()
+    made = joined(3, 4).start()
     for writer in range(3):
         made.update(writer).read()
-    made.write(0).write(1).write(2).publish(2).pause(_QUIET).read()
+    made.write(0).write(1).write(2).publish(2).pause(QUIET).read()
     scenarios.append(("3 writers, 4 readers", made.end()))
-    made = _with(1, 2).start()
+    made = joined(1, 2).start()
     for _ in range(24):
         made.update().read()
     scenarios.append(("24 publications", made.end()))
@@ -122,14 +100,14 @@ def _participants() -> TestPurpose:
     scenarios.append(("reader attached first", made.end()))
     text = "Each writer publishes, and each reader reads, twice, before and after a restart."
     ids = ".2-01 .2-02 .2-03 .2-05 1-21 1-22 2-01 2-02 2-06 2-07 2-14 2-17"
-    return _purpose("participants", text, ids, scenarios)
+    return purpose_about("participants", text, ids, scenarios)
 
 
 def _steps() -> TestPurpose:
     """A value is set, several times, and published later or not."""
     scenarios = []
     for readers in (1, 3):
-        made = _with(1, readers).start()
+        made = joined(1, readers).start()
         made.update().read().write().read().write().read().publish().await_told(*range(readers)).read()
         made.write(times=3).publish().await_told(*range(readers)).read().update().read()
         scenarios.append((f"one writer, {readers} readers", made.end()))
@@ -137,142 +115,65 @@ def _steps() -> TestPurpose:
     made.update().read().write().read().publish().await_told(0, 1).read()
     made.write(times=3).read().publish().await_told(0, 1).read()
     scenarios.append(("a reader is a port of the writer", made.end()))
-    made = _with(1, 2, patience=_BRIEF).start().update().read().publish().listen(0).listen(1).read().update().read()
+    made = joined(1, 2, patience=BRIEF).start().update().read().publish().listen(0).listen(1).read().update().read()
     scenarios.append(("published twice", made.end()))
-    made = _with(1, 2).start().update().update().read().publish().pause(_QUIET).read().update().read()
+    made = joined(1, 2).start().update().update().read().publish().pause(QUIET).read().update().read()
     scenarios.append(("published again after two", made.end()))
     text = "A writer sets values, and publishes the last one, or none."
-    return _purpose("steps", text, ".2-04 2-15 2-16 2-17 2-03 2-06", scenarios)
+    return purpose_about("steps", text, ".2-04 2-15 2-16 2-17 2-03 2-06", scenarios)
 
 
 def _cancelling() -> TestPurpose:
     """A value is cancelled before or after it is published."""
     scenarios = []
     for name, first in (("after a publication", True), ("first of all", False)):
-        made = _with(1, 2).start()
+        made = joined(1, 2).start()
         if first:
             made.update().read()
-        made.write().cancel().publish().pause(_QUIET).read().publish().pause(_QUIET).read()
+        made.write().cancel().publish().pause(QUIET).read().publish().pause(QUIET).read()
         made.update().read().write().cancel().write().publish().await_told(0, 1).read()
         scenarios.append((f"cancelled, {name}", made.end()))
-    made = _with(1, 2).start()
-    made.update().cancel().read().publish().pause(_QUIET).read().update().read()
+    made = joined(1, 2).start()
+    made.update().cancel().read().publish().pause(QUIET).read().update().read()
     scenarios.append(("cancelled when published", made.end()))
-    made = _with(1, 1).start()
-    made.cancel().publish().pause(_QUIET).update().read().cancel().cancel().write().cancel().read()
+    made = joined(1, 1).start()
+    made.cancel().publish().pause(QUIET).update().read().cancel().cancel().write().cancel().read()
     made.write(times=2).cancel().write().publish().await_told(0).read().cancel().read()
     scenarios.append(("nothing to cancel, and two values", made.end()))
-    made = _with(1, 2).start().update().read().write(times=2).cancel().publish().pause(_QUIET).read().update().read()
+    made = joined(1, 2).start().update().read().write(times=2).cancel().publish().pause(QUIET).read().update().read()
     scenarios.append(("two values cancelled, then published", made.end()))
-    made = _with(1, 2).start().update().write().cancel().write(times=2).publish().await_told(0, 1).read()
+    made = joined(1, 2).start().update().write().cancel().write(times=2).publish().await_told(0, 1).read()
     scenarios.append(("cancelled, then two values", made.end()))
     text = "A writer cancels what it has set, or has published, or nothing."
-    return _purpose("cancelling", text, "2-18 2-19 2-20 2-21 2-03 1-22", scenarios)
-
-
-def _unpublished() -> TestPurpose:
-    """Readers read, freeze and release before anything was published."""
-    made = _with(1, 2).start().read().write().read().publish().await_told(0, 1).read()
-    scenarios = [("read first", made.end())]
-    made = _with(1, 2).start().freeze(0).read().update(but=(0,)).read().release(0).update(of=(1,)).read()
-    scenarios.append(("frozen first", made.end()))
-    made = _with(1, 1).start().release().update().read().release().read().update().read()
-    scenarios.append(("released without a freeze", made.end()))
-    text = "Readers read, freeze or release before anything was published."
-    return _purpose("unpublished", text, ".2-03 2-09 2-15 1-22", scenarios)
-
-
-def _freezing() -> TestPurpose:
-    """Readers are frozen while publications go on."""
-    scenarios = []
-    for readers, frozen in ((1, (0,)), (3, (0,)), (3, (0, 2)), (3, (0, 1, 2))):
-        made = _with(1, readers).start().update().read().freeze(*frozen).read()
-        for _ in range(2):
-            made.update(but=frozen).read()
-        made.write().cancel().publish().read().release(*frozen)
-        made.update(but=frozen).pause(_QUIET).read()
-        scenarios.append((f"{len(frozen)} of {readers} readers frozen", made.end()))
-    made = _with(1, 2).start().update().read()
-    for _ in range(6):
-        made.freeze(0).read(0).update(but=(0,)).read().read(0).release(0).read(0).update(but=(0,)).pause(_QUIET).read()
-    scenarios.append(("frozen six times", made.end()))
-    made = _with(1, 2).start().update().freeze(0).freeze(0).read(0).update(but=(0,)).read().release(0).pause(_QUIET)
-    made.read(0).release(0).update(but=(0,)).pause(_QUIET).read()
-    scenarios.append(("frozen twice, released twice", made.end()))
-    made = _with(2, 2).start().update(0).freeze(0).update(1, but=(0,)).update(0, but=(0,)).read()
-    made.freeze(1).write(1).publish(1).read().release(0, 1).update(0, of=()).pause(_QUIET).read()
-    scenarios.append(("two writers, two readers frozen", made.end()))
-    made = _with(1, 3).start().update().read().freeze(0, 2).read(0, 2).update(of=(1,)).release(0)
-    made.update(of=(1,)).pause(_QUIET).read().release(2).update(of=(1,)).pause(_QUIET).read()
-    scenarios.append(("one of two released", made.end()))
-    made = _with(1, 2).start().update().freeze(0).read(0).update(but=(0,)).freeze(0).read(0).update(but=(0,)).read(0)
-    made.release(0).release(0).update(but=(0,)).pause(_QUIET).read()
-    scenarios.append(("frozen again after a publication", made.end()))
-    made = _with(1, 2).start().update().release(0).freeze(0).update(but=(0,)).read().release(0).release(0)
-    made.freeze(0).read(0).update(but=(0,)).read(0).release(0)
-    scenarios.append(("released, then frozen", made.end()))
-    made = _with(1, 2).start().update().read().write().freeze(0).read().publish().await_told(1).read()
-    made.write().release(0).pause(_QUIET).read().publish().await_told(1).pause(_QUIET).read()
-    scenarios.append(("set, frozen, published; set, released, published", made.end()))
-    made = Configuration().connection().writer().reader(of_writer=0).reader().start().update().read()
-    made.freeze(0).read(0).update(but=(0,)).read().release(0).update(but=(0,)).pause(_QUIET).read()
-    scenarios.append(("the writer is a frozen reader", made.end()))
-    made = _with(1, 3).start().update().read().freeze(2).update(but=(2,)).stop().remove(2).start()
-    made.update(of=(0, 1)).read(0, 1).freeze(0).update(of=(1,)).read(0, 1).release(0)
-    made.update(of=(1,)).pause(_QUIET).read(0, 1)
-    scenarios.append(("a frozen reader is removed", made.end()))
-    text = "Readers are frozen while others publish and read."
-    return _purpose("freezing", text, "2-09 2-10 2-11 2-12 2-13 1-22", scenarios)
-
-
-def _releasing() -> TestPurpose:
-    """What a reader gets during a freeze and after its release, if it is given time."""
-    scenarios = []
-    for missed in (1, 2, 4):
-        made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0)
-        for _ in range(missed):
-            made.update(but=(0,))
-        made.listen(0).read().release(0).read(0).listen(0).wait_in_vain().read()
-        made.update(of=(1,)).wait_in_vain().read()
-        scenarios.append((f"{missed} missed", made.end()))
-    made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0).update(but=(0,)).write().cancel().release(0)
-    made.listen(0).wait_in_vain().read()
-    scenarios.append(("cancelled while frozen", made.end()))
-    made = _with(2, 2, patience=_BRIEF).start().update(0).read().freeze(0).update(0, but=(0,)).update(1, but=(0,))
-    made.release(0).listen(0).wait_in_vain().read().read(0).read(0)
-    scenarios.append(("missed of both writers", made.end()))
-    made = _with(2, 2).start().update(0).freeze(0).release(0).update(0).update(1).read()
-    scenarios.append(("released, then both writers", made.end()))
-    text = "A reader is frozen and released, and waited for each time."
-    return _purpose("releasing", text, "2-02 2-09 2-12", scenarios)
+    return purpose_about("cancelling", text, "2-18 2-19 2-20 2-21 2-03 1-22", scenarios)
 
 
 def _writers() -> TestPurpose:
     """Several writers set, publish and cancel in turns, and at once."""
     scenarios = []
-    made = _with(2, 2).start().update(0).update(1).read()
-    made.write(0).write(1).publish(0).listen(0).listen(1).read().publish(1).pause(_QUIET).read()
+    made = joined(2, 2).start().update(0).update(1).read()
+    made.write(0).write(1).publish(0).listen(0).listen(1).read().publish(1).pause(QUIET).read()
     scenarios.append(("both set, then both publish", made.end()))
-    made = _with(2, 2).start().update(0).update(1).read()
+    made = joined(2, 2).start().update(0).update(1).read()
     made.write(0).cancel(1).publish(0).listen(0).listen(1).read().update(1).read()
     scenarios.append(("one cancels what it has not set", made.end()))
-    made = _with(2, 2).start().update(0).write(1).cancel(1).publish(0).publish(1).pause(_QUIET).read().update(1).read()
+    made = joined(2, 2).start().update(0).write(1).cancel(1).publish(0).publish(1).pause(QUIET).read().update(1).read()
     scenarios.append(("one cancels, both publish", made.end()))
-    made = _with(2, 2).start().update(0).read().write(0).publish(1).pause(_QUIET).read().publish(0).pause(_QUIET).read()
+    made = joined(2, 2).start().update(0).read().write(0).publish(1).pause(QUIET).read().publish(0).pause(QUIET).read()
     scenarios.append(("one sets, the other publishes", made.update(1).read().end()))
     for number in range(3):
-        made = _with(2, 3).start().update(0).update(1).read().write(0).write(1)
+        made = joined(2, 3).start().update(0).update(1).read().write(0).write(1)
         made.apart(("publish", 0), ("publish", 1), *(("read", 0),) * bool(number))
         made.await_told(0, 1, 2, times=2).read().read().read()
         scenarios.append((f"both publish at once, {number}", made.end()))
     text = "Two writers set, publish and cancel in turns, or at once."
-    return _purpose("writers", text, ".2-01 .2-05 .2-06 2-22 2-06", scenarios)
+    return purpose_about("writers", text, ".2-01 .2-05 .2-06 2-22 2-06", scenarios)
 
 
 def _notifications() -> TestPurpose:
     """Notifications are counted, read in, and end with the operational phase."""
     scenarios = []
-    made = _with(1, 3).start()
+    made = joined(1, 3).start()
     for _ in range(4):
         made.write().publish()
     made.await_told(0, 1, 2, times=4).read().update().read()
@@ -284,34 +185,34 @@ def _notifications() -> TestPurpose:
     made = Configuration().connection().writer().reader().reader().calls_inside(0, FREEZE).calls_inside(0, READ)
     scenarios.append(("frozen inside a notification", made.start().update().read(0).update(but=(0,)).read().end()))
     for late in (False, True):
-        made = _with(1, 2, elsewhere=True, patience=_BRIEF)
+        made = joined(1, 2, elsewhere=True, patience=BRIEF)
         made.start(s.MANAGER) if late else made.start().update().stop(ELSEWHERE)
         made.update(of=(1,)).start(ELSEWHERE).read(0).update(of=(1,)).listen(0).wait_in_vain().read()
         made.update(of=(1,)).listen(0).wait_in_vain().read()
         scenarios.append((f"one reader {'is started later' if late else 'is stopped'}, and waited for", made.end()))
     for late in (False, True):
-        made = _with(1, 2, elsewhere=True)
+        made = joined(1, 2, elsewhere=True)
         made.start(s.MANAGER) if late else made.start().update().stop(ELSEWHERE)
         made.update(of=(1,)).update(of=(1,)).read(1)
-        made.start(ELSEWHERE).read(0).update(of=(1,)).pause(_QUIET).update(of=(1,)).pause(_QUIET).read()
+        made.start(ELSEWHERE).read(0).update(of=(1,)).pause(QUIET).update(of=(1,)).pause(QUIET).read()
         scenarios.append((f"one reader {'is started later' if late else 'is stopped meanwhile'}", made.end()))
-    made = _with(1, 3).start().update().stop().remove(2)
-    made.start().update(of=(0, 1)).pause(_QUIET).read(0, 1)
+    made = joined(1, 3).start().update().stop().remove(2)
+    made.start().update(of=(0, 1)).pause(QUIET).read(0, 1)
     scenarios.append(("one reader is removed", made.end()))
     text = "Readers are notified of several publications, read in a notification, or are not operational."
-    return _purpose("notifications", text, "-04 2-02 2-03 2-04 2-08", scenarios)
+    return purpose_about("notifications", text, "-04 2-02 2-03 2-04 2-08", scenarios)
 
 
 def _protected() -> TestPurpose:
     """A protected reader is executed while something is published."""
     made = Configuration().connection().writer().reader(policies=(Policy(s.PROTECTED_PASSIVE),), held=True)
-    made.start().enter(0).write().publish().pause(_QUIET).leave(0).await_told(0).read()
+    made.start().enter(0).write().publish().pause(QUIET).leave(0).await_told(0).read()
     scenarios = [("held reader", made.end())]
     made = Configuration().connection().writer().reader(policies=(Policy(s.PROTECTED_PASSIVE),), held=True).reader()
     made.start().enter(0).write().publish().await_told(1).read(1).leave(0).await_told(0).read()
     scenarios.append(("held reader and another one", made.end()))
     text = "A protected reader is executed while something is published."
-    return _purpose("protected", text, "2-05", scenarios)
+    return purpose_about("protected", text, "2-05", scenarios)
 
 
 def _types() -> TestPurpose:
@@ -333,7 +234,7 @@ def _types() -> TestPurpose:
     made = Configuration(_RECORD, records).connection().writer().writer().reader().reader().start()
     made.update(0).update(1).read().write(0).write(1).apart(("publish", 0), ("publish", 1), ("read", 0))
     scenarios.append(("structures at once", made.await_told(0, 1, times=2).read().read().read().end()))
-    return _purpose("types", "Values of each type are shared.", ".2-08 .2-06", scenarios)
+    return purpose_about("types", "Values of each type are shared.", ".2-08 .2-06", scenarios)
 
 
 def _apart() -> TestPurpose:
@@ -346,27 +247,27 @@ def _apart() -> TestPurpose:
     scenarios = [("two connections", made.end())]
     made = Configuration().connection().writer().reader().connection("second").writer().reader().reader().start()
     made.update(0, of=(0,)).update(1, of=(1, 2)).read().freeze(0, 1).update(1, of=(2,)).release(0).read()
-    made.update(1, of=(2,)).read().release(1).write(0).write(1).cancel(0).publish(1).await_told(2).pause(_QUIET).read()
+    made.update(1, of=(2,)).read().release(1).write(0).write(1).cancel(0).publish(1).await_told(2).pause(QUIET).read()
     scenarios.append(("freezes and cancellations of two connections", made.end()))
     text = "Two connections of one type have writers and readers of their own."
-    return _purpose("apart", text, ".2-07", scenarios)
+    return purpose_about("apart", text, ".2-07", scenarios)
 
 
 def _ports() -> TestPurpose:
     """A component has two ports of one connection, or one of each of two."""
     made = Configuration().connection().writer().reader().reader(of_reader=0).reader().start().update().read().freeze(0)
-    made.read().update(of=(2,)).pause(_QUIET).read().freeze(1).release(0).update(of=(2,)).pause(_QUIET).read()
-    scenarios = [("one of two ports of a reader is frozen", made.release(1).update(of=(2,)).pause(_QUIET).read().end())]
+    made.read().update(of=(2,)).pause(QUIET).read().freeze(1).release(0).update(of=(2,)).pause(QUIET).read()
+    scenarios = [("one of two ports of a reader is frozen", made.release(1).update(of=(2,)).pause(QUIET).read().end())]
     made = Configuration().connection().writer().reader().connection("second").writer().reader(of_reader=0).reader()
-    made.start().update(0, of=(0,)).update(1, of=(1, 2)).read().freeze(0).update(1, of=(2,)).pause(_QUIET).read()
-    made.update(0, of=()).pause(_QUIET).read().release(0).write(0).publish(1).publish(0).pause(_QUIET).read()
+    made.start().update(0, of=(0,)).update(1, of=(1, 2)).read().freeze(0).update(1, of=(2,)).pause(QUIET).read()
+    made.update(0, of=()).pause(QUIET).read().release(0).write(0).publish(1).publish(0).pause(QUIET).read()
     scenarios.append(("ports of two connections, one frozen", made.end()))
     made = Configuration().connection().writer().writer(of_writer=0).reader().reader().start().update(0).update(1)
     made.read().write(0).write(1).publish(1).await_told(0, 1).read().publish(0).await_told(0, 1).read()
     made.write(0).write(1).cancel(0).publish(1).await_told(0, 1).read()
     scenarios.append(("a writer has two ports", made.end()))
     text = "Readers and writers have two ports, of one connection or of two."
-    return _purpose("ports", text, ".2-06 .2-07 2-02 2-06 2-09 2-10", scenarios)
+    return purpose_about("ports", text, ".2-06 .2-07 2-02 2-06 2-09 2-10", scenarios)
 
 
 def _faults() -> TestPurpose:
@@ -374,29 +275,29 @@ def _faults() -> TestPurpose:
     scenarios = []
     places = [("transport", s.MANAGER), ("inside", s.MANAGER), ("transport", ELSEWHERE)]
     for where, place in places:
-        made = _with(1, 2, elsewhere=place == ELSEWHERE).start().update().read()
+        made = joined(1, 2, elsewhere=place == ELSEWHERE).start().update().read()
         made.write().break_(where).publish().mend()  # type: ignore[arg-type]
-        made.write().publish().pause(_QUIET).update(of=()).pause(_QUIET).read()
+        made.write().publish().pause(QUIET).update(of=()).pause(QUIET).read()
         scenarios.append((f"{where} broken{'' if place == s.MANAGER else ', one reader elsewhere'}", made.end()))
-    made = _with(1, 2, patience=_BRIEF).start().update().read()
+    made = joined(1, 2, patience=BRIEF).start().update().read()
     for _ in range(2):
         made.write().break_("transport").publish().mend().write().publish().listen(0)
         made.wait_in_vain().read().update().read()
     scenarios.append(("transport broken twice", made.end()))
-    return _purpose("faults", "The connection is broken, and mended.", "1-23", scenarios)
+    return purpose_about("faults", "The connection is broken, and mended.", "1-23", scenarios)
 
 
 def _phases() -> TestPurpose:
     """All are stopped with a value that is not published, and with a reader that is frozen."""
-    made = _with(1, 2).start().update().read().freeze(0).update(but=(0,)).write().stop().start()
-    made.read().release(0).update(of=()).pause(_QUIET).update(of=()).pause(_QUIET).read()
+    made = joined(1, 2).start().update().read().freeze(0).update(but=(0,)).write().stop().start()
+    made.read().release(0).update(of=()).pause(QUIET).update(of=()).pause(QUIET).read()
     scenarios = [("stopped and started again", made.end())]
-    made = _with(1, 2, patience=_BRIEF).start().update().read().freeze(0).update(but=(0,)).write().stop().start()
+    made = joined(1, 2, patience=BRIEF).start().update().read().freeze(0).update(but=(0,)).write().stop().start()
     made.read().release(0).update(of=(1,)).listen(0).wait_in_vain().read()
     scenarios.append(("stopped and started again, and waited for", made.end()))
-    made = _with(1, 2).start().update().read()
+    made = joined(1, 2).start().update().read()
     for _ in range(3):
-        made.stop().start().update(of=()).pause(_QUIET).read().update(of=()).pause(_QUIET).read()
+        made.stop().start().update(of=()).pause(QUIET).read().update(of=()).pause(QUIET).read()
     scenarios.append(("started four times", made.end()))
     text = "All are stopped with a value that is not published, and with a reader that is frozen."
-    return _purpose("phases", text, "2-04 2-06 2-11", scenarios)
+    return purpose_about("phases", text, "2-04 2-06 2-11", scenarios)

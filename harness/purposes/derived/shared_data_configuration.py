@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Final, Literal
 
@@ -22,6 +23,15 @@ from ucm_cts.adapters.contract.platform_interfaces import (
 )
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
 from ucm_cts.harness.purposes.derived.connection_steps import ConnectionSteps
+from ucm_cts.harness.purposes.scripts import TestPurpose
+
+_CLAUSE = "10.4.2"
+
+BRIEF = 600
+"""Milliseconds of patience where something is waited for in vain."""
+
+QUIET = 50
+"""Milliseconds in which nothing is to come."""
 
 ELSEWHERE = "elsewhere"
 """Another container than the manager."""
@@ -315,3 +325,23 @@ class Configuration(ConnectionSteps):
     def _places(self) -> list[str]:
         has_another = any(isinstance(step, s.CreateContainer) for step in self.steps)
         return [ELSEWHERE, s.MANAGER] if has_another else [s.MANAGER]
+
+
+def purpose_about(name: str, text: str, requirements: str, scenarios: Sequence[tuple[str, Scenario]]) -> TestPurpose:
+    """The test purpose of that name; ``requirements`` are the numbers of its requirements, those of another clause than 10.4.2 with a dot or hyphen."""
+    ids = tuple(f"R-10.4{one}" if one.startswith((".", "-")) else f"R-10.4.2.{one}" for one in requirements.split())
+    cases = tuple((f"shared data/{n}", one) for n, one in scenarios)
+    return TestPurpose(f"shared data/{name}", _CLAUSE, text, ids, cases)
+
+
+def joined(writers: int, readers: int, elsewhere: bool = False, patience: int = 0) -> Configuration:
+    """A connection with so many writers and readers; ``elsewhere``: every second reader is in another container."""
+    made = Configuration(patience=patience) if patience else Configuration()
+    if elsewhere:
+        made.container()
+    made.connection()
+    for _ in range(writers):
+        made.writer()
+    for number in range(readers):
+        made.reader(ELSEWHERE if elsewhere and number % 2 == 0 else s.MANAGER)
+    return made

@@ -79,6 +79,18 @@ class freezes_components(Link):
         return [one for one in self.ends if one.kind.side == "reader" and one.member is end.member]
 
 
+@breaks("R-10.4.2.2-06", clauses=SHARED, also=("R-10.4.2.2-07",))
+class gets_again_what_it_missed(Link):
+    """With each release a reader gets what it missed when it was frozen before."""
+
+    def release(self, end: End) -> str:
+        with self.lock:
+            view = self._view(end)
+            view.frozen = False
+            view.current = view.missed or view.current
+        return OK
+
+
 @breaks("R-10.4.2.2-11", clauses=SHARED, also=("R-10.4.2.2-10", "R-10.4.2.2-14"))
 class waits_for_readers(Link):
     """A publication waits until no reader is frozen."""
