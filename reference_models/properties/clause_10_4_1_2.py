@@ -141,7 +141,14 @@ def response_returned(check: Property, runtime: ObservedRuntime) -> Conclusions:
     for found in all_requests(runtime):
         for asked in found.asked:
             reply, entries = asked.call.reply, asked.entries
-            if not asked.waits or reply is None or len(entries) != 1 or entries[0].fit != "same":
+            if not asked.waits or reply is None:
+                continue
+            if not entries and not asked.is_ok and is_sound(runtime, asked, reply.n) and not _is_inside(runtime, asked):
+                due = _CLIENTS if any(other.entries for other in found.asked) else _CODES
+                yield _violate(
+                    check, due, "refused", asked, "enters the server: nothing is wrong", f"it gave {_got(asked)}"
+                )
+            if len(entries) != 1 or entries[0].fit != "same":
                 continue
             answers = [a for a in asked.answers if a.moment < reply.n]
             if not is_sound(runtime, asked, reply.n) or not answers:
@@ -179,8 +186,22 @@ def _not_ok(check: Property, runtime: ObservedRuntime, asked: Asked, entry: Rece
             return
     elif fails(entry.server) and asked.code != OK:
         return
-    got = asked.code if asked.code is not None else "an exception"
-    yield _violate(check, _CODES, "not ok", asked, "gives ok: its server answered", f"it gave {got}")
+    yield _violate(check, _CODES, "not ok", asked, "gives ok: its server answered", f"it gave {_got(asked)}")
+
+
+def _is_inside(runtime: ObservedRuntime, asked: Asked) -> bool:
+    """Was the request made while the server was executed on the same thread? It may be refused then, as it could never enter."""
+    request = asked.call.request
+    servers = {end.member.body for end, _ in asked.call.targets}
+    entries = [(e.enter, e.end if e.over else NEVER) for body in servers for e in runtime.executions.of(body)]
+    entries += [(d.enter, d.exit.n if d.exit is not None else NEVER) for d in runtime.interactions.deliveries]
+    return any(
+        enter.body in servers and enter.thread == request.thread and enter.n < request.n < end for enter, end in entries
+    )
+
+
+def _got(asked: Asked) -> object:
+    return asked.code if asked.code is not None else "an exception"
 
 
 @property_at("closed", _GOES_ON, _CODES, timed=True, feature="extended")
@@ -202,8 +223,9 @@ def client_goes_on(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 continue
             if not asked.is_ok:
                 if not any(fails(end) for end, _ in asked.call.targets):
-                    got = asked.code if asked.code is not None else "an exception"
-                    yield _violate(check, _CODES, "not ok", asked, "gives ok: nothing is wrong", f"it gave {got}")
+                    yield _violate(
+                        check, _CODES, "not ok", asked, "gives ok: nothing is wrong", f"it gave {_got(asked)}"
+                    )
                 continue
             yield check.kept(_CODES)
             waited = [e for e in settled if e.worker == worker and e.where != "done" and request.n < e.n < reply.n]

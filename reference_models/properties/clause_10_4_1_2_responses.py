@@ -12,11 +12,11 @@ from ucm_cts.adapters.contract.trace import Return
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import execution_policies as policies
-from ucm_cts.reference_models.model.extended_links import overdue_since
+from ucm_cts.reference_models.model.extended_links import changes_between, overdue_since
 from ucm_cts.reference_models.model.messages import INTERNAL_ERROR, OK
 from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Requests
+from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Received, Requests
 from ucm_cts.reference_models.model.requests import all_requests, is_sound
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -157,7 +157,7 @@ def identifiers_pair(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     at=(answer.to.delivery.enter.n, answer.moment),
                     requirement=_SERVERS_ID,
                 )
-        yield from _differing(check, found)
+        yield from _differing(check, runtime, found)
         for received in found.received:
             asked = received.asked
             given = asked.given if asked is not None and asked.is_ok and not asked.waits else None
@@ -173,12 +173,13 @@ def identifiers_pair(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     )
 
 
-def _differing(check: Property, found: Requests) -> Conclusions:
+def _differing(check: Property, runtime: ObservedRuntime, found: Requests) -> Conclusions:
     """Identifiers of requests that are open at the same time differ, at each client and at the server."""
     asked = [a for a in found.asked if not a.waits and a.given is not None and a.call.reply is not None and a.is_ok]
     for index, one in enumerate(asked):
         for other in asked[:index]:
-            if other.client.is_of_port(one.client) and _over(other) > one.call.over:
+            over = min(_over(other), _given_up(runtime, other.call.over, other.entries))
+            if other.client.is_of_port(one.client) and over > one.call.over:
                 if one.given != other.given:
                     yield check.kept(_DIFFER)
                 else:
@@ -186,19 +187,33 @@ def _differing(check: Property, found: Requests) -> Conclusions:
     entered = [r for r in found.received if r.number is not None and r.fit == "same"]
     for index, received in enumerate(entered):
         for earlier in entered[:index]:
-            moment = received.delivery.enter.n
-            if not earlier.answers or earlier.answers[0].moment > moment:
+            moment, begun = received.delivery.enter.n, earlier.delivery.enter.n
+            answered = [answer.moment for answer in earlier.answers[:1]]
+            if min([*answered, _given_up(runtime, begun, [earlier])]) > moment:
                 if received.number != earlier.number:
                     yield check.kept(_DIFFER)
                 else:
                     server = f"'{lane(*received.delivery.enter.body)}'"
-                    yield _same(check, server, received.number, earlier.delivery.enter.n, moment)
+                    yield _same(check, server, received.number, begun, moment)
 
 
 def _over(asked: Asked) -> int:
     """When its response had come; later than all events if it has not."""
     came = [c.delivery.enter.n for a in asked.answers for c in a.callbacks]
     return min(came, default=NEVER)
+
+
+def _given_up(runtime: ObservedRuntime, since: int, entries: Sequence[Received]) -> int:
+    """From when a request that was open at the event ``since`` may be so no more without an answer: its server raised, its client had come back,
+    or something was stopped or undone; later than all events if nothing of that happened.
+    """
+    moments = [operation.begin.n for operation in changes_between(runtime, since, NEVER)]
+    for entry in entries:
+        if entry.delivery.exit is not None and entry.delivery.exit.failed:
+            moments.append(entry.delivery.exit.n)
+        if entry.asked is not None and entry.asked.waits:
+            moments.append(entry.asked.call.over)
+    return min(moments, default=NEVER)
 
 
 def _same(check: Property, who: str, number: object, *at: int) -> Finding:

@@ -29,6 +29,7 @@ from ucm_cts.harness.purposes.derived.timer_steps import (
     tell,
     timed,
     together,
+    two_instances,
     while_held,
 )
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -195,6 +196,7 @@ def _instances() -> TestPurpose:
         *(s.Stop("below"), after(1.1), tell(2), after(1), s.Stop()),
     )
     cases.append(("another container stops", s.Scenario({"timed": same}, below, 4000)))
+    cases.append(("of one implementation", two_instances(same, after(2.1))))
     outer = (
         *(s.AddComponent("timed"), s.GetPortElement("timed", PORT, "tell"), s.CreateContainer("below")),
         *(
@@ -208,7 +210,7 @@ def _instances() -> TestPurpose:
         *(s.Stop("below"), s.RemoveContainer("below"), after(2), s.Stop()),
     )
     cases.append(("another container comes and goes", s.Scenario({"timed": same}, outer, 4000)))
-    return purposes_about("instances", "21 22 30 37 42", *cases)
+    return purposes_about("instances", "21 22 30 37 38 42", *cases)
 
 
 def _phases() -> TestPurpose:

@@ -34,6 +34,7 @@ from ucm_cts.harness.purposes.derived.timer_steps import (
     sporadic,
     tell,
     together,
+    two_instances,
     while_held,
 )
 from ucm_cts.harness.purposes.derived.timer_steps import cancel as index_cancel
@@ -208,18 +209,16 @@ def _cancel() -> TestPurpose:
     returned = scheduling(repeated(0.4, 0.3, 3, 1), made(s.CANCEL, 1, 2, s.SCHEDULE_REPEATED))
     cases.append(("of a repeated one that came back", alone(returned, tell(1), tell(2), after(1.1))))
     asked_apart = {
-        "handed over, asked of the one returned": (
+        "of one reference, asked of a later one": (own(s.CANCEL, 1, 2), own(s.IS_CANCELLED, 2, 3)),
+        "of one reference, asked of an earlier one": (own(s.CANCEL, 2, 2), own(s.IS_CANCELLED, 1, 3)),
+        "of one reference, asked of the one returned": (
             own(s.CANCEL, 2, 2),
             made(s.IS_CANCELLED, 1, 3, s.SCHEDULE_REPEATED),
-        ),
-        "returned, asked of the one handed over": (
-            made(s.CANCEL, 1, 2, s.SCHEDULE_REPEATED),
-            own(s.IS_CANCELLED, 1, 3),
         ),
     }
     for name, pair in asked_apart.items():
         waiting = scheduling(repeated(0.2, 0.3, 5, 1), *pair, on_trigger=())
-        cases.append((f"of the one {name}", alone(waiting, tell(1), s.Pause(550), tell(3), tell(2), tell(3), after(1))))
+        cases.append((name, alone(waiting, tell(1), s.Pause(550), tell(3), tell(2), tell(3), after(1))))
     lasting = scheduling(
         repeated(0.3, 0.3, 6, 1),
         policies=(PASSIVE, SCHEDULES),
@@ -242,6 +241,7 @@ def _instances() -> TestPurpose:
         *(s.Start(), s.Start("below"), tell(1), tell(1, "second"), tell(2), after(0.9), s.Stop("below"), s.Stop()),
     )
     cases.append(("in another container", Scenario({"timed": same}, beside, 4000)))
+    cases.append(("of one implementation", two_instances(same, after(0.9))))
     below = (
         *(s.CreateContainer("below"), s.AddComponent("timed"), s.AddComponent("timed", "below", bind="second")),
         *(s.GetPortElement("timed", PORT, "tell"), s.GetPortElement("second", PORT, "tell second", "below")),

@@ -97,6 +97,8 @@ def _single(definition: str) -> TestPurpose:
     cases.append(("a long period", _scenario(slow, *steps)))
     steps = (*_calls("api"), *_joins(1), s.Pause(_LONG + 40), *_calls("api", first=2), *_joins(1, 2))
     cases.append(("a long period, and longer pause", _scenario(slow, *steps)))
+    steps = (*_calls("api"), *_joins(1), s.Pause(_LONG + _LONG // 2), *_calls("api", first=2), *_joins(1, 2))
+    cases.append(("a long period, and half of one more", _scenario(slow, *steps)))
     unmanaged = (*_calls("aux", "aux"), *_joins(2), *_calls("api", first=3), *_joins(1, 3))
     cases.append(("beside a port that is not managed", _scenario(server, *unmanaged)))
     cases.append(("no call", _scenario(_server(*_both(definition, 10)), s.Pause(120))))
@@ -134,6 +136,16 @@ def _held(definition: str) -> TestPurpose:
             *_joins(3),
         )
         cases.append((name, _scenario(_server(*policies, plan=plan), *steps)))
+    unmanaged = (
+        *_calls("aux"),
+        s.ReachGate(_INSIDE),
+        *_calls("api", first=2),
+        s.Pause(3 * _USUAL),
+        s.Settle("caller 2"),
+        s.OpenGate(_INSIDE),
+        *_joins(2),
+    )
+    cases.append(("a port that is not managed", _scenario(_server(policy(definition, _USUAL), plan=plan), *unmanaged)))
     own = _APART[definition].split()[0 if definition == _SPORADIC else 2]
     return purposes_about(f"{NAMES[definition]}/long executions", f"2-19 {own}", *cases)
 

@@ -47,6 +47,10 @@ _TYPES: dict[str, tuple[d.AnyType, d.Datum]] = {
     "structure": (_RECORD, [-(2**40), "level", [1, -1, 300]]),
     "array": (d.Array(d.Integer("USHORT"), (2, 2)), [[1, 2], [3, 65535]]),
     "enumeration": (d.Enumeration("mode", "ULONG", {"off": 0, "on": 7}), "on"),
+    "LONG, zero": (d.Integer("LONG"), 0),
+    "BOOLEAN, false": (d.Boolean(), False),
+    "string, empty": (d.String("CHAR8"), ""),
+    "sequence, empty": (d.Sequence(d.Integer("SHORT")), []),
 }
 """Types of requests and responses, each with a value."""
 

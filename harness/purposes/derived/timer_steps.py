@@ -95,6 +95,16 @@ def together(components: dict[str, Declaration], *steps: Step, patience: int = 4
     return Scenario(components, (*begin, s.Start(), *steps, s.Stop(), s.GetComponents()), patience)
 
 
+def two_instances(component: Declaration, wait: Step, patience: int = 4000) -> Scenario:
+    """Two instances of ``component`` in one container are told 1, the second one also 2, and waited for each time."""
+    steps = (
+        *(s.AddComponent("timed"), s.AddComponent("timed", bind="second"), s.GetPortElement("timed", PORT, "tell")),
+        *(s.GetPortElement("second", PORT, "tell second"), s.Start(), tell(1), s.Pause(300), tell(1, "second")),
+        *(wait, tell(2, "second"), wait, s.Stop(), s.GetComponents()),
+    )
+    return Scenario({"timed": component}, steps, patience)
+
+
 def tell(value: int, whom: str = "") -> Step:
     """Calls the component with ``value``."""
     return s.Invoke(f"tell {whom}" if whom else "tell", value)

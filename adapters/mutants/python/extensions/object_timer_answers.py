@@ -273,8 +273,8 @@ class remembers_cancellation_by_reference(ScheduledTimer):
     was_cancelled = False
 
     def cancel(self) -> None:
-        self.was_cancelled = self.timer.number in self.triggers._waiting
         super().cancel()
+        self.was_cancelled = super().is_cancelled()
 
     def is_cancelled(self) -> bool:
         return self.was_cancelled

@@ -351,3 +351,25 @@ class lets_paced_calls_meet(Base):
             return
         with super()._exclusion(member, port):
             yield
+
+
+@breaks("R-10.1.3.2-10", clauses=PACED, also=("R-10.1.3.2-06",))
+class executes_paced_calls_beside_others(Base):
+    """A call of a managed port enters while one of a port that the policy does not manage is executed."""
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        if any(policy.port == port for policy in member.execution.extended if port is not None):
+            yield
+        else:
+            with super()._exclusion(member, port):
+                yield
+
+
+@breaks("R-10.5.2-10", clauses=PACED)
+class loses_its_instants(Pace):
+    """After its first execution a periodic active component only keeps the distance of a period."""
+
+    def due(self, asked: float) -> float:
+        is_begun = self.policy.definition == s.PERIODIC_ACTIVE and self.entered_at >= self.first
+        return max(asked, self.entered_at + self.period) if is_begun else super().due(asked)

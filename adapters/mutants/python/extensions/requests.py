@@ -207,3 +207,14 @@ class asks_the_server_of_another_connection(Link):
         if isinstance(first, RequestResponseLink) and opened.client.kind.provided is not None:
             server = next((end for end in first.ends if end.kind.side == "server"), server)
         super()._enter(server, opened, request)
+
+
+@breaks("R-10.4.1.1-08", clauses=REQUESTS)
+class serves_one_waiting_client(Link):
+    """While a synchronous client waits, requests of others get internal_error."""
+
+    def _request_and_wait(self, client: End, request: Datum) -> list[Datum]:
+        waiting = [one for one in self.requests.values() if one.client.kind.provided is None]
+        if waiting:
+            return [a_value(self.types[RESPONSE_DATA]), INTERNAL_ERROR]
+        return super()._request_and_wait(client, request)

@@ -285,3 +285,12 @@ class invents_responses(Link):
     def _request_and_wait(self, client: End, request: Datum) -> list[Datum]:
         response, code = super()._request_and_wait(client, request)
         return [response, OK if code == INTERNAL_ERROR and not self.broken else code]
+
+
+@breaks("R-10.4.1.1-34", clauses=REQUESTS)
+class takes_nothing_for_no_response(Link):
+    """A response of 0, false or nothing at all gives a synchronous client internal_error."""
+
+    def _request_and_wait(self, client: End, request: Datum) -> list[Datum]:
+        response, code = super()._request_and_wait(client, request)
+        return [response, code if response else INTERNAL_ERROR]

@@ -115,3 +115,12 @@ class keeps_the_kind_of_a_number(Timers):
     def _start(self, timer: Timer) -> None:
         before = self._waiting.get(timer.number)
         super()._start(replace(timer, rate=None) if before is not None and before.rate is None else timer)
+
+
+@breaks("R-10.3.2-21", clauses=TIMED, also=("R-10.3.2-31", "R-10.3.2-37", *MISSING_CALLBACKS))
+class has_timers_for_each_implementation(Base):
+    """Timers that an instance starts call back the first instance of its implementation."""
+
+    def _timers_of(self, member: Member) -> Timers:
+        like = (one for one in self.members.values() if one.implementation is member.implementation)
+        return next((one.timers for one in like if one.timers is not None), None) or super()._timers_of(member)

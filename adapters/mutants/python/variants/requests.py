@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
 import threading
 from collections.abc import Callable
 
@@ -137,3 +139,25 @@ class keeps_requests_over_a_stop(Link):
         taker: Taker | None = opened.client.taker
         if taker is not None and opened.client in self.ends:
             taker.enter(RESPONSE, [response, opened.number])
+
+
+@variant_of(*REQUESTS)
+class uses_numbers_again(Link):
+    """The number of a request is the lowest one of which no request is open, and no response is on its way."""
+
+    def _number(self, client: End) -> int:
+        return next(number for number in itertools.count(1) if number not in self.requests and number not in self._held)
+
+    def _respond(self, response: Datum, number: Datum) -> str:
+        opened = self.requests.get(number) if isinstance(number, int) else None
+        if opened is not None and opened.client.kind.provided is not None:
+            self._held.add(opened.number)
+        return super()._respond(response, number)
+
+    def _call_back(self, opened: OpenRequest, response: Datum) -> None:
+        super()._call_back(opened, response)
+        self._held.discard(opened.number)
+
+    @functools.cached_property
+    def _held(self) -> set[int]:
+        return set()
