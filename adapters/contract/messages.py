@@ -14,6 +14,7 @@ from typing import Annotated, Any, get_args
 import msgspec
 
 from ucm_cts.adapters.contract.data_types import AnyType, Datum, Direction
+from ucm_cts.adapters.contract.json_schema import schemas_of
 from ucm_cts.adapters.contract.scenario import Action, Hook, Scenario, Step
 from ucm_cts.adapters.contract.trace import Event, MaybeReference
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
@@ -149,7 +150,7 @@ _NAMED: dict[str, Any] = {
 
 def protocol_schema() -> dict[str, Any]:
     """JSON Schema of both directions, for adapters in other languages."""
-    schemas, definitions = msgspec.json.schema_components(list(_NAMED.values()), ref_template="#/$defs/{name}")
+    schemas, definitions = schemas_of(list(_NAMED.values()))
     named = dict(zip(_NAMED, schemas, strict=True))
     definitions = {name: _with_names(schema, named, True) for name, schema in (named | definitions).items()}
     for name in ("Hook", "Direction"):

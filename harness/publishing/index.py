@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 
 import ucm_cts
+from ucm_cts.adapters.contract.json_schema import schema_of
 from ucm_cts.harness.certificates.problems import Problem
 from ucm_cts.harness.certificates.verified import Assurance
 from ucm_cts.harness.publishing.certificate import Certificate, Fallen
@@ -82,7 +83,7 @@ def schema() -> bytes:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": SCHEMA_ID,
         "title": "Published UCM certificates",
-        **msgspec.json.schema(Index),
+        **schema_of(Index),
     }
     return msgspec.json.format(msgspec.json.encode(made), indent=1) + b"\n"
 

@@ -8,6 +8,7 @@ from typing import Any, Final, Literal, Self
 
 import msgspec
 
+from ucm_cts.adapters.contract.json_schema import schema_of
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.harness.catalogue.requirements import Level, Requirement, requirements_of
 from ucm_cts.harness.report.scope import Scope, scope_of
@@ -224,7 +225,7 @@ def schema() -> dict[str, Any]:
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": f"urn:ucm-cts:schema:report:{SCHEMA_VERSION}",
         "title": "UCM-CTS conformance report",
-        **msgspec.json.schema(ReportEntry),
+        **schema_of(ReportEntry),
     }
 
 

@@ -7,9 +7,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import pytest
 
+from ucm_cts.adapters.contract.json_schema import schemas_of
 from ucm_cts.adapters.contract.messages import PROTOCOL, protocol_schema
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event
@@ -26,22 +26,21 @@ PUBLISHED: dict[str, dict[str, str]] = json.loads(Path(__file__).with_name("form
 """The digest of each form by its number. Numbers that were published stay, with their digests."""
 
 
-def schema_of(*types: Any) -> Any:
-    schemas, definitions = msgspec.json.schema_components(types)
-    return [schemas, definitions]
-
-
 FORMS: dict[str, tuple[int, Any]] = {
     "report.json": (json_report.SCHEMA_VERSION, json_report.schema()),
     "protocol": (PROTOCOL, protocol_schema()),
     "index.json": (index.SCHEMA_VERSION, json.loads(index.schema())),
-    "record of a framework": (record.FORMAT, schema_of(record.Heading, Event, Scenario, record.AnyEntry)),
+    "record of a framework": (record.FORMAT, [*schemas_of((record.Heading, Event, Scenario, record.AnyEntry))]),
     "certificate": (
         contents.FORMAT,
-        schema_of(
-            *(contents.SignedStatement, contents.Environment, Statement, tuple[KnownFailure, ...]),
-            *(Commitment, Challenge, Challenged, ToolChainRecord),
-        ),
+        [
+            *schemas_of(
+                (
+                    *(contents.SignedStatement, contents.Environment, Statement, tuple[KnownFailure, ...]),
+                    *(Commitment, Challenge, Challenged, ToolChainRecord),
+                )
+            )
+        ],
     ),
 }
 
