@@ -40,7 +40,7 @@ def changes_between(
 ) -> Iterator[Operation]:
     """Operations between these events that stop or remove components, undo connections, or break or mend them.
 
-    With ``among``: but for stops of other containers than those of these components. A stop of the manager may be that of all.
+    ``among``: a stop of a container that has none of these components does not count. A stop of the manager always does.
     """
     places = {id(member.container) for member in among}
     return (

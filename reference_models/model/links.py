@@ -49,12 +49,6 @@ class End:
         return self.member is other.member and self.of == other.of
 
     @property
-    def label(self) -> str:
-        """What findings call it: its component, and its port if that has several of connectors of 10.4."""
-        lane, ports = self.member.lane, {name.partition(".")[0] for name in self.member.declaration.ports}
-        return f"{lane}.{self.of}" if len(ports) > 1 else lane
-
-    @property
     def is_synchronous(self) -> bool:
         """Does a port with one element only take part in request-response?"""
         kind = self.kind
@@ -77,6 +71,11 @@ class LinkState:
     broken_at: int = 0
     was_broken: str = ""
     mended_at: int = 0
+
+    def label(self, end: End) -> str:
+        """What findings call ``end``: its component, and its port if that has several here."""
+        ports = {other.of for other in self.ends if other.member is end.member}
+        return f"{end.member.lane}.{end.of}" if len(ports) > 1 else end.member.lane
 
     def live(self, *roles: str) -> list[End]:
         """The ends of these roles that are attached now."""

@@ -14,6 +14,7 @@ from ucm_cts.reference_models.model.links import End, LinkState
 from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Received, Requests
+from ucm_cts.reference_models.model.runtime import Member
 
 
 def all_requests(runtime: ObservedRuntime) -> list[Requests]:
@@ -132,17 +133,23 @@ def _pair_by_number(found: Requests, callback: Callback) -> None:
 
 
 def is_sound(runtime: ObservedRuntime, asked: Asked, until: int = NEVER) -> bool:
-    """Was everything in order from the request until that event: one server, all operational and attached in time, nothing broken, and neither
-    of the two stopped?
+    """Was everything in order from the request until that event: one server, all operational and attached in time, no connection broken, and
+    nothing stopped or undone but containers that have neither of the two?
     """
     call, link = asked.call, asked.call.link
-    if link is None or not link.is_proper or link.was_broken or not call.ready or not call.prepared:
+    if link is None or not link.is_proper or not call.ready or not call.prepared:
+        return False
+    if any(one.was_broken for one in runtime.interactions.links.values()):  # connections may share what is broken
         return False
     servers = {id(end.member) for end, _ in call.targets}
     if len(servers) != 1 or not all(ready for _, ready in call.targets) or call.is_mistyped:
         return False
-    both = [asked.client.member, *(end.member for end, _ in call.targets)]
-    return next(changes_between(runtime, call.request.n, until, both), None) is None
+    return next(changes_between(runtime, call.request.n, until, participants(asked)), None) is None
+
+
+def participants(asked: Asked) -> list[Member]:
+    """Its client, and the servers that it may have come to."""
+    return [asked.client.member, *(end.member for end, _ in asked.call.targets)]
 
 
 def fails(end: End) -> bool:
@@ -151,3 +158,9 @@ def fails(end: End) -> bool:
     plan = member.declaration.plan.get("method", ())
     codes = [a.results[-1] for a in plan if isinstance(a, s.Answer) and a.results and a.exception is None]
     return member.raises("method") or any(code != "ok" for code in codes)
+
+
+def asker(asked: Asked | None) -> str:
+    """What findings call its client."""
+    link = asked.call.link if asked is not None else None
+    return link.label(asked.client) if asked is not None and link is not None else "another"

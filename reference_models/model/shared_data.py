@@ -197,7 +197,7 @@ def _distinct(values: Iterable[Datum]) -> list[Datum]:
 
 
 def _find_sessions(runtime: ObservedRuntime, found: SharedData, reader: Reader) -> None:
-    """``ends`` are the depths of freezing by reading: one release ends all, or as many as freezes."""
+    """``flat`` and ``counted`` are the depths of freezing by reading: one release ends all, or as many as freezes."""
     may_count = runtime.ics.permits("nested-freeze", "counted")
     must_count = runtime.ics.reading("nested-freeze") == "counted"
     stops = [o.begin.n for o in changes(runtime, found.link)]
@@ -232,8 +232,9 @@ def _find_sessions(runtime: ObservedRuntime, found: SharedData, reader: Reader) 
 def _note_stops(session: Session | None, stops: Sequence[int]) -> None:
     """A stop may end a freeze."""
     if session is not None:
-        after = (stop for stop in stops if stop > session.freeze.request.n)
+        after = [stop for stop in stops if stop > session.freeze.request.n]
         session.unclear_since = min((session.unclear_since, *after))
+        session.is_stopped = session.is_stopped or bool(after)
 
 
 def _heard_of(runtime: ObservedRuntime, found: SharedData, reader: Reader) -> dict[int, int]:

@@ -58,6 +58,7 @@ class Session:
 
     ``freeze``, ``nested``: the call of ``freeze_data`` that began it, and further ones in it.
     ``unclear_since``: the event from which it may be over: a release after several calls of ``freeze_data``, or a stop.
+    ``is_stopped``: something was stopped, started or joined meanwhile.
     ``released``: the call of ``release_data`` that surely ended it; None if none did.
     ``nth``: its number among those of its reader, from 1.
     """
@@ -66,11 +67,12 @@ class Session:
     nth: int
     nested: list[MethodCall] = field(default_factory=list)
     unclear_since: int = NEVER
+    is_stopped: bool = False
     released: MethodCall | None = None
 
     def beginnings(self, before: int) -> list[MethodCall]:
-        """The calls of ``freeze_data``, made before that event, that may have frozen the reader: the first one, and those after it may have
-        been over.
+        """The calls of ``freeze_data``, before that event, that may have frozen the reader: the first one, and those that were made when the
+        session may have ended.
         """
         again = [call for call in self.nested if self.unclear_since < call.request.n < before]
         return [self.freeze, *again]

@@ -138,15 +138,17 @@ def _free(runtime: ObservedRuntime, found: SharedData, reader: Reader, call: Met
 
 
 def _holding(found: SharedData, reader: Reader, call: MethodCall, view: View) -> list[MethodCall]:
-    """The freezes of other readers that may hold the connection in ``call``: until nobody is frozen any more and something that was
-    published later has arrived. A freeze while another one holds, also one of the reader itself, keeps what that one kept.
+    """The freezes that may hold the connection in ``call``: until nobody is frozen any more and something that was published later has arrived.
+
+    They are of other readers. A freeze while another one holds keeps what that one kept; so one of the reader itself counts, too, if another
+    one followed it.
     """
     left = [session for other in found.readers for session in other.sessions]
-    latest = max((one.since for one in view.arrived), default=0)
     freezes: list[MethodCall] = []
     looked_at = [call]
     while looked_at:
         moment = looked_at.pop()
+        latest = max((one.since for one in view.arrived if one.since < moment.over), default=0)
         for session in [one for one in left if one.freeze.request.n < moment.over]:
             if moment is call and session in reader.sessions:
                 continue
@@ -205,9 +207,10 @@ def _kept(
 def _pinned(runtime: ObservedRuntime, found: SharedData, reader: Reader, session: Session, call: MethodCall) -> View:
     """What the reader kept when it was frozen: what it has read since, or else what it might have read then."""
     view = _free(runtime, found, reader, session.freeze)
-    for again in session.beginnings(call.request.n)[1:]:
+    later = session.beginnings(call.request.n)[1:]
+    for again in later:
         view = _both(view, _free(runtime, found, reader, again))
-    for read in reader.reads:
+    for read in reader.reads if not later else ():
         is_in = session.freeze.over < read.request.n and read.over < call.request.n
         value = given(read) if is_in and is_ok(read) else None
         if value is not None and value in view.values and state_at(reader, read) == ("frozen", session):

@@ -113,7 +113,7 @@ def free_after(runtime: ObservedRuntime, timer: Timer, due: int, before: int) ->
     Its executions may keep the callback out, and so may those of other components with timers, as one thread may call all of them.
     """
     free = due
-    for begin, end in sorted(_busy(runtime, before)):
+    for begin, end in sorted(busy(runtime, before), key=lambda span: span[0]):
         if begin > free + lateness(runtime):
             break
         if end is None:
@@ -122,7 +122,7 @@ def free_after(runtime: ObservedRuntime, timer: Timer, due: int, before: int) ->
     return free
 
 
-def _busy(runtime: ObservedRuntime, before: int) -> Iterator[tuple[int, int | None]]:
+def busy(runtime: ObservedRuntime, before: int) -> Iterator[tuple[int, int | None]]:
     """When executions began and ended that may keep a callback out: one thread may wait for any component that has timers."""
     for member in runtime.bodies.values():
         if has_timers(member.declaration):

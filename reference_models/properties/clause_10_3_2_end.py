@@ -140,7 +140,7 @@ def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
             value = _reading_of_use(runtime, old, new, [c.t for c in later])
             if value and (yield from takes(runtime, "number-in-use", value)):
                 counting = {"replace": (new,), "both": (old, new)}.get(value, (old,))
-                yield from _no_surplus(check, runtime, counting, new, later)
+                yield from _no_surplus(check, runtime, counting, (old, new), later)
                 continue
             declared = runtime.ics.reading("number-in-use")
             yield check.fail(
@@ -161,10 +161,11 @@ def _no_surplus(
     check: Property,
     runtime: ObservedRuntime,
     counting: Sequence[Timer],
-    new: Timer,
+    both: tuple[Timer, Timer],
     later: Sequence[TimerCallback],
 ) -> Conclusions:
-    """The timers of one number that count since ``new`` was started call back once each, if none of them repeats."""
+    """Those of ``both`` timers of one number that count since the second one was started call back once each, if none of them repeats."""
+    old, new = both
     reply = new.call.reply
     if reply is None or any(timer.rate is not None for timer in counting):
         return
@@ -175,7 +176,7 @@ def _no_surplus(
             expected=f"timer {new.number} of '{new.phase.member.lane}', which is started again while it waits, calls back once"
             + (" for each start" if len(counting) > 1 else ""),
             observed=f"it called back {len(after)} times",
-            at=at_of(new, *after),
+            at=(*at_of(old), *at_of(new, *after)),
             requirement=_ONCE,
         )
 
@@ -205,6 +206,14 @@ def _times_after(runtime: ObservedRuntime, timer: Timer, new: Timer) -> list[tup
     return found
 
 
+def _from_before(runtime: ObservedRuntime, phase: TimerPhase) -> set[int]:
+    """The numbers of timers of an earlier phase, which may go on in this one."""
+    if not runtime.ics.permits("timers-at-stop", "resumed"):
+        return set()
+    earlier = [p for p in timer_phases(runtime) if p.member is phase.member and p.of.started.n < phase.of.started.n]
+    return {timer.number for p in earlier for timer in p.timers}
+
+
 def _started_twice(runtime: ObservedRuntime, phase: TimerPhase) -> Iterator[tuple[Timer, Timer]]:
     """Two timers, the only ones of their number, of which the second was started while the first one waited, and that both should
     have called back, at moments that can be told apart, with nothing to keep them out.
@@ -215,8 +224,9 @@ def _started_twice(runtime: ObservedRuntime, phase: TimerPhase) -> Iterator[tupl
     late = lateness(runtime)
     if any(not e.over or e.left - e.enter.t > late for e in phase.executions):
         return
-    for timers in by_number.values():
-        if len(timers) != 2 or not timers[0].is_contested:
+    resumed = _from_before(runtime, phase)
+    for number, timers in by_number.items():
+        if len(timers) != 2 or not timers[0].is_contested or number in resumed:
             continue
         old, new = timers
         plain = all(t.has_usual_times and not t.cancels and not t.is_in_startup for t in timers)

@@ -17,6 +17,7 @@ from ucm_cts.reference_models.model.timer_events import Timer
 from ucm_cts.reference_models.model.timer_options import option_of, reading_of
 from ucm_cts.reference_models.model.timer_times import (
     MOST,
+    busy,
     earliest,
     free_after,
     is_kept_out,
@@ -161,8 +162,12 @@ def _is_busy(runtime: ObservedRuntime, timer: Timer, due: int) -> bool:
 
 def _long_executions(runtime: ObservedRuntime, timer: Timer) -> list[Execution]:
     """The executions of its component that may keep more than one callback out."""
-    late = lateness(runtime)
-    return [e for e in timer.phase.executions if not e.over or e.left - e.enter.t > late]
+    return [e for e in timer.phase.executions if _is_long(runtime, e.enter.t, e.left if e.over else None)]
+
+
+def _is_long(runtime: ObservedRuntime, begin: int, end: int | None) -> bool:
+    """May an execution that began and ended then keep more than one callback out?"""
+    return end is None or end - begin > lateness(runtime)
 
 
 def _stops(
@@ -176,7 +181,11 @@ def _stops(
         if last is None:
             return None
         until = min(until, last)
-    ends = (e.left if e.over else timer.until[1] for e in _long_executions(runtime, timer))
+    ends = [
+        timer.until[1] if end is None else end
+        for begin, end in busy(runtime, timer.until[1])
+        if _is_long(runtime, begin, end)
+    ]
     quiet_since = max([free, *(callback.t for callback in timer.callbacks[-1:]), *ends])
     if until - quiet_since > 2 * timer.rate.lasts + lateness(runtime):
         return _untimely(check, runtime, timer, len(timer.callbacks), None, was_busy)

@@ -12,7 +12,7 @@ from ucm_cts.reference_models.model.messages import OK
 from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Asked, Received, Requests
-from ucm_cts.reference_models.model.requests import all_requests, fails, is_sound
+from ucm_cts.reference_models.model.requests import all_requests, asker, fails, is_sound, participants
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.services import is_left_hanging
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -143,8 +143,9 @@ def response_returned(check: Property, runtime: ObservedRuntime) -> Conclusions:
             reply, entries = asked.call.reply, asked.entries
             if not asked.waits or reply is None:
                 continue
-            if not entries and not asked.is_ok and is_sound(runtime, asked, reply.n) and not _is_inside(runtime, asked):
-                due = _CLIENTS if any(other.entries for other in found.asked) else _CODES
+            if not entries and not asked.is_ok and is_sound(runtime, asked, reply.n) and not _is_busy(runtime, asked):
+                beside = [other for other in found.asked if not other.client.is_of_port(asked.client)]
+                due = _CLIENTS if any(other.entries for other in beside) else _CODES
                 yield _violate(
                     check, due, "refused", asked, "enters the server: nothing is wrong", f"it gave {_got(asked)}"
                 )
@@ -160,7 +161,7 @@ def response_returned(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 others = [a for a in found.answers if a.value == asked.given and a.to is not first.to]
                 plain = others or _types(runtime, found)[1] == _PLAIN
                 observed = f"it got {_shown(asked.given)}"
-                observed += f", which was for '{_asker(others[0].asked)}'" if others else ""
+                observed += f", which was for '{asker(others[0].asked)}'" if others else ""
                 expected = f"gets {_shown(first.value)}, which the server gave"
                 cause = "another's" if others else "other"
                 yield _violate(check, _RETURNS if plain else _TYPES, cause, asked, expected, observed)
@@ -189,15 +190,13 @@ def _not_ok(check: Property, runtime: ObservedRuntime, asked: Asked, entry: Rece
     yield _violate(check, _CODES, "not ok", asked, "gives ok: its server answered", f"it gave {_got(asked)}")
 
 
-def _is_inside(runtime: ObservedRuntime, asked: Asked) -> bool:
-    """Was the request made while the server was executed on the same thread? It may be refused then, as it could never enter."""
-    request = asked.call.request
+def _is_busy(runtime: ObservedRuntime, asked: Asked) -> bool:
+    """Was the server executed when the request was made? It may be refused then: as a circle, or when its time is out."""
+    moment = asked.call.request.n
     servers = {end.member.body for end, _ in asked.call.targets}
-    entries = [(e.enter, e.end if e.over else NEVER) for body in servers for e in runtime.executions.of(body)]
-    entries += [(d.enter, d.exit.n if d.exit is not None else NEVER) for d in runtime.interactions.deliveries]
-    return any(
-        enter.body in servers and enter.thread == request.thread and enter.n < request.n < end for enter, end in entries
-    )
+    spans = [(e.enter, e.end if e.over else NEVER) for body in servers for e in runtime.executions.of(body)]
+    spans += [(d.enter, d.exit.n if d.exit is not None else NEVER) for d in runtime.interactions.deliveries]
+    return any(enter.body in servers and enter.n < moment < end for enter, end in spans)
 
 
 def _got(asked: Asked) -> object:
@@ -245,7 +244,7 @@ def request_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
             request, reply = asked.call.request, asked.call.reply
             if not asked.waits or not asked.call.ready or not asked.call.prepared or asked.call.broken:
                 continue
-            ending = list(changes_between(runtime, request.n, asked.call.over))
+            ending = list(changes_between(runtime, request.n, asked.call.over, participants(asked)))
             ending = [o for o in ending if o.begin.n > request.n and o.step.undoes in ("phase", "connection")]
             hangs = reply is None and is_left_hanging(runtime, asked.call.business.worker, request.n)
             if ending and reply is not None:
@@ -288,10 +287,6 @@ def _types(runtime: ObservedRuntime, found: Requests) -> tuple[object, object]:
     return types[REQUEST_DATA], types[RESPONSE_DATA]
 
 
-def _asker(asked: Asked | None) -> str:
-    return asked.client.label if asked is not None else "another"
-
-
 def _shown(value: object) -> str:
     return printed([value], 200)[1:-1]
 
@@ -304,7 +299,7 @@ def _violate(check: Property, requirement: str, cause: str, asked: Asked, expect
     server = lane(*entered[0].body) if entered else targets[0] if targets else "server"
     return check.fail(
         cause,
-        expected=f"the request {_shown(asked.value)} of '{asked.client.label}' {expected}",
+        expected=f"the request {_shown(asked.value)} of '{asker(asked)}' {expected}",
         observed=observed,
         at=(request.n, *(e.n for e in entered), *((reply.n,) if reply is not None else ())),
         instead=(Arrow(client, server, "request"), Arrow(server, client, "response")),

@@ -17,7 +17,7 @@ from ucm_cts.reference_models.model.messages import INTERNAL_ERROR, OK
 from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.request_events import Answer, Asked, Callback, Received, Requests
-from ucm_cts.reference_models.model.requests import all_requests, is_sound
+from ucm_cts.reference_models.model.requests import all_requests, asker, is_sound, participants
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -51,7 +51,7 @@ def _judged(
         twice = answer is not None and answer.to is not None and len(answer.to.answers) > 1
         yield _violate(check, _ONCE if twice else _COMES, "twice", callback, "gets each response once", "got it again")
     elif callback.fit == "foreign" and answer is not None:
-        observed = f"got the response to '{_asker(answer.asked)}'"
+        observed = f"got the response to '{asker(answer.asked)}'"
         yield _violate(check, _ASKER, "another's", callback, "gets responses to its own requests", observed)
     elif callback.fit == "altered" and answer is not None:
         plain = runtime.scenario.types[found.link.interface][RESPONSE_DATA] == _PLAIN
@@ -115,7 +115,7 @@ def response_missing(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 for requirement in broken:
                     yield check.fail(
                         "never",
-                        expected=f"the response {_shown(answer.value)} to '{_asker(asked)}' comes to it",
+                        expected=f"the response {_shown(answer.value)} to '{asker(asked)}' comes to it",
                         observed="it did not",
                         at=(asked.call.request.n, answer.moment),
                         requirement=requirement,
@@ -178,18 +178,19 @@ def _differing(check: Property, runtime: ObservedRuntime, found: Requests) -> Co
     asked = [a for a in found.asked if not a.waits and a.given is not None and a.call.reply is not None and a.is_ok]
     for index, one in enumerate(asked):
         for other in asked[:index]:
-            over = min(_over(other), _given_up(runtime, other.call.over, other.entries))
-            if other.client.is_of_port(one.client) and over > one.call.over:
+            over = min(_over(other), _given_up(runtime, other, other.call.over, other.entries))
+            is_open = over > one.call.over and all(ready for _, ready in other.call.targets)
+            if is_open and other.client.is_of_port(one.client):
                 if one.given != other.given:
                     yield check.kept(_DIFFER)
                 else:
-                    yield _same(check, f"'{_asker(one)}'", one.given, other.call.over, one.call.over)
+                    yield _same(check, f"'{asker(one)}'", one.given, other.call.over, one.call.over)
     entered = [r for r in found.received if r.number is not None and r.fit == "same"]
     for index, received in enumerate(entered):
         for earlier in entered[:index]:
             moment, begun = received.delivery.enter.n, earlier.delivery.enter.n
             answered = [answer.moment for answer in earlier.answers[:1]]
-            if min([*answered, _given_up(runtime, begun, [earlier])]) > moment:
+            if min([*answered, _given_up(runtime, earlier.asked, begun, [earlier])]) > moment:
                 if received.number != earlier.number:
                     yield check.kept(_DIFFER)
                 else:
@@ -203,16 +204,17 @@ def _over(asked: Asked) -> int:
     return min(came, default=NEVER)
 
 
-def _given_up(runtime: ObservedRuntime, since: int, entries: Sequence[Received]) -> int:
-    """From when a request that was open at the event ``since`` may be so no more without an answer: its server raised, its client had come back,
-    or something was stopped or undone; later than all events if nothing of that happened.
+def _given_up(runtime: ObservedRuntime, asked: Asked | None, since: int, entries: Sequence[Received]) -> int:
+    """From when a request that was open at the event ``since`` may have been given up: its server raised, its client had come back, or something
+    that concerns them was stopped or undone; later than all events if nothing of that happened.
     """
-    moments = [operation.begin.n for operation in changes_between(runtime, since, NEVER)]
-    for entry in entries:
-        if entry.delivery.exit is not None and entry.delivery.exit.failed:
-            moments.append(entry.delivery.exit.n)
-        if entry.asked is not None and entry.asked.waits:
-            moments.append(entry.asked.call.over)
+    among = participants(asked) if asked is not None else ()
+    moments = [operation.begin.n for operation in changes_between(runtime, since, NEVER, among)]
+    moments += [
+        entry.delivery.exit.n for entry in entries if entry.delivery.exit is not None and entry.delivery.exit.failed
+    ]
+    if asked is not None and asked.waits:
+        moments.append(asked.call.over)
     return min(moments, default=NEVER)
 
 
@@ -309,10 +311,6 @@ def _was_open(asked: Asked, moment: int) -> bool:
     return asked.is_ok and not asked.waits and asked.call.over < moment < _over(asked) and bool(asked.entries)
 
 
-def _asker(asked: Asked | None) -> str:
-    return asked.client.label if asked is not None else "another"
-
-
 def _shown(value: object) -> str:
     return printed([value], 200)[1:-1]
 
@@ -324,9 +322,10 @@ def _violate(
     asked = answer.asked if answer is not None else None
     before = [asked.call.request.n] if asked is not None else []
     given = [answer.moment] if answer is not None else []
+    link, client = callback.delivery.link, callback.client
     return check.fail(
         cause,
-        expected=f"'{callback.client.label}' {expected}",
+        expected=f"'{link.label(client) if link is not None else client.member.lane}' {expected}",
         observed=f"it {observed}",
         at=tuple(sorted({*before, *given, enter.n})),
         requirement=requirement,

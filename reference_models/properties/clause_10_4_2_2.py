@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.platform_interfaces import CANCEL
@@ -12,10 +10,9 @@ from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.shared_data import all_shared_data, changes, is_disturbed
+from ucm_cts.reference_models.model.shared_data import all_shared_data, changes
 from ucm_cts.reference_models.model.shared_data_events import (
     Publication,
-    Reader,
     Session,
     SharedData,
     are_of_one_end,
@@ -23,14 +20,12 @@ from ucm_cts.reference_models.model.shared_data_events import (
     is_ok,
     written,
 )
+from ucm_cts.reference_models.model.shared_data_reads import Reading, reads_of
 from ucm_cts.reference_models.model.shared_data_views import (
-    State,
     View,
     frozen_at,
     is_due,
     may_be_frozen,
-    state_at,
-    view_of,
     was_told,
 )
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -47,52 +42,6 @@ _OF_FREEZING = (_FREEZES, _ONE_READER, _RELEASES, _FREEZES_AGAIN)
 _OF_WRITING = (_WRITES, _REPLACES, _SENDS, _CANCELS, _NOTHING, _WORKS_AGAIN, _NO_RECALL, _UNDISTURBED)
 
 
-@dataclass(frozen=True)
-class Reading:
-    """A call of ``read_data`` with what is known of it.
-
-    ``view``: what the reader may read.
-    ``state``, ``session``: is it frozen, and by which session, or which was its last one?
-    ``value``: what it got.
-    """
-
-    found: SharedData
-    reader: Reader
-    call: MethodCall
-    view: View
-    state: State
-    session: Session | None
-    value: Datum | None
-
-    @property
-    def published(self) -> list[Publication]:
-        """The publications that had begun."""
-        return [one for one in self.found.publications if one.since < self.call.over]
-
-    @property
-    def unread(self) -> list[Publication]:
-        """The publications since the last read of this reader."""
-        since = max((read.request.n for read in self.reader.reads if read.over < self.call.request.n), default=0)
-        return [one for one in self.published if one.since > since]
-
-    @property
-    def previous(self) -> MethodCall | None:
-        """The read of this reader before it, if nothing was published since."""
-        reads = [read for read in self.reader.reads if read.over < self.call.request.n]
-        if not reads or any(one.over > reads[-1].request.n for one in self.published):
-            return None
-        return reads[-1]
-
-
-def _readings(runtime: ObservedRuntime, found: SharedData) -> list[Reading]:
-    return [
-        Reading(found, reader, read, view_of(runtime, found, reader, read), *state_at(reader, read), given(read))
-        for reader in found.readers
-        for read in reader.reads
-        if read.reply is not None and not read.reply.wrong and not is_disturbed(runtime, read)
-    ]
-
-
 @property_at(
     "closed",
     *(_CURRENT, _WRITERS, _READERS, _WHEN, _TWO_STEPS, _WHOLE, _APART, _TYPES),
@@ -105,7 +54,7 @@ def _readings(runtime: ObservedRuntime, found: SharedData) -> list[Reading]:
 def data_read(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A reader reads what was published last, or what it kept when it was frozen."""
     for found in all_shared_data(runtime):
-        for one in _readings(runtime, found):
+        for one in reads_of(runtime, found):
             if one.value is None or not is_ok(one.call):
                 yield from _without_value(check, runtime, one)
             elif one.value in one.view.values:
@@ -147,7 +96,7 @@ def _unpublished(check: Property, runtime: ObservedRuntime, one: Reading, readin
 
 
 def _is_late(runtime: ObservedRuntime, one: Reading) -> bool:
-    """Was the reader started after the last publication, while its writer stayed operational, and nobody's freeze kept that back?"""
+    """Was the reader started after the last publication, while its writer stayed operational, and did nobody's freeze hold the connection then?"""
     last = one.published[-1] if one.published else None
     reader = one.reader.end.member
     was_out = last is not None and any(end.member is reader and not ready for end, ready in last.call.targets)
@@ -242,7 +191,12 @@ def _readings_taken(check: Property, runtime: ObservedRuntime, one: Reading) -> 
         yield _violate(check, _CURRENT, "late", one, "gives no value, as declared: late-reader = empty", _got(one))
     if session is None:
         return
-    if one.state == "unclear" and session.nested and session.unclear_since < one.call.request.n:
+    if (
+        one.state == "unclear"
+        and session.nested
+        and not session.is_stopped
+        and session.unclear_since < one.call.request.n
+    ):
         if value in view.kept and value not in view.fresh and not runtime.ics.permits("value-after-release", "next"):
             yield from takes(runtime, "nested-freeze", "counted")
         elif value in view.fresh and value not in view.kept:
@@ -355,9 +309,7 @@ def _any_read(reads: list[MethodCall], published: list[Publication]) -> bool:
 def readers_agree(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """When nobody publishes any more all readers that are not frozen read one value."""
     for found in all_shared_data(runtime):
-        read = [
-            one for one in _readings(runtime, found) if one.state == "free" and is_ok(one.call) and one.view.arrived
-        ]
+        read = [one for one in reads_of(runtime, found) if one.state == "free" and is_ok(one.call) and one.view.arrived]
         last = {id(one.reader): one for one in read if one.session is None}
         final = [one for one in last.values() if _is_final(one)]
         if len(final) < 2:
@@ -404,7 +356,7 @@ def _violate(
     frozen = ", which is frozen," if one.state == "frozen" else ""
     return check.fail(
         cause,
-        expected=f"read_data of '{one.reader.end.label}'{frozen} {expected}",
+        expected=f"read_data of '{one.found.link.label(one.reader.end)}'{frozen} {expected}",
         observed=f"it {observed}",
         at=tuple(sorted({*further, request.n, *((reply.n,) if reply is not None else ())})),
         requirement=requirement,

@@ -41,7 +41,7 @@ def notified_of_updates(check: Property, runtime: ObservedRuntime) -> Conclusion
                 requirement = _NOTHING if cancelled else _APART if near else _TWO_STEPS if at_once else _NO_UPDATE
                 yield check.fail(
                     "no update",
-                    expected=f"'{reader.end.label}' is notified once for each publication at most: {len(sent)} so far",
+                    expected=f"'{found.link.label(reader.end)}' is notified once for each publication at most: {len(sent)} so far",
                     observed=f"on_data_update was entered {number} times",
                     at=(*((last.request.n,) if last is not None else ()), moment),
                     requirement=requirement,
@@ -97,7 +97,7 @@ def reader_notified(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 if overdue and not _is_changed(runtime, found, one.since, overdue) and is_free:
                     yield check.fail(
                         "never",
-                        expected=f"'{reader.end.label}' is notified of the publication",
+                        expected=f"'{found.link.label(reader.end)}' is notified of the publication",
                         observed="it was not",
                         at=(one.since, reply.n, overdue),
                     )
@@ -125,7 +125,7 @@ def _coalesced(
     if notices and len(notices) < len(sure) and not (yield from takes(runtime, "notifications", "coalesced")):
         yield check.fail(
             "fewer",
-            expected=f"'{reader.end.label}' is notified of each of {len(sure)} publications, as declared",
+            expected=f"'{found.link.label(reader.end)}' is notified of each of {len(sure)} publications, as declared",
             observed=f"it was notified {len(notices)} times",
             at=(sure[0].since, overdue),
         )
@@ -176,7 +176,7 @@ def published_twice(check: Property, runtime: ObservedRuntime) -> Conclusions:
             ):
                 continue
             if not (yield from takes(runtime, "publish-twice", "again" if again else "nothing")):
-                expected = f"'{reader.end.label}' is told of a second publication as declared"
+                expected = f"'{found.link.label(reader.end)}' is told of a second publication as declared"
                 yield check.fail(
                     "twice",
                     expected=f"{expected}: publish-twice = {runtime.ics.reading('publish-twice')}",
@@ -197,7 +197,7 @@ def frozen_notified(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     declared = runtime.ics.reading("frozen-notification")
                     yield check.fail(
                         "frozen",
-                        expected=f"'{reader.end.label}', which is frozen, is notified as declared: {declared}",
+                        expected=f"'{found.link.label(reader.end)}', which is frozen, is notified as declared: {declared}",
                         observed={
                             "at-once": "it was notified while it was frozen",
                             "at-release": "it was notified after its release",

@@ -217,8 +217,8 @@ def _cancel() -> TestPurpose:
         ),
     }
     for name, pair in asked_apart.items():
-        waiting = scheduling(repeated(0.2, 0.3, 5, 1), *pair, on_trigger=())
-        cases.append((name, alone(waiting, tell(1), s.Pause(550), tell(3), tell(2), tell(3), after(1))))
+        waiting = scheduling(repeated(0.2, 0.3, 6, 1), *pair, on_trigger=())
+        cases.append((name, alone(waiting, tell(1), s.Pause(950), tell(3), tell(2), tell(3), after(1))))
     lasting = scheduling(
         repeated(0.3, 0.3, 6, 1),
         policies=(PASSIVE, SCHEDULES),

@@ -209,10 +209,11 @@ def _apart() -> TestPurpose:
 def _ports() -> TestPurpose:
     """A component has two ports of one connection, or one of each of two."""
     scenarios = []
-    for kind in KINDS:
-        made = Configuration().server(ASYNCHRONOUS).clients((kind, kind), 2, second="first").start()
+    for kind, server in itertools.product(KINDS, KINDS):
+        made = Configuration().server(server).clients((kind, kind), 2, second="first").start()
         made.ask(0).ask(1).restart().ask(0)
-        scenarios.append((f"{kind} clients, one connection", made.end()))
+        scenarios.append((f"{kind} clients of a {server} server, one connection", made.end()))
+    for kind in KINDS:
         made = Configuration().server(ASYNCHRONOUS).connection("second").server(SYNCHRONOUS, name="other")
         made.clients((kind, kind), 2, second="first").start().ask(0).ask(1)
         scenarios.append((f"{kind} clients, two connections", made.end()))

@@ -32,9 +32,11 @@ def test_conformant_framework_fails_no_more(case: dict[str, Any]) -> None:
         interfaces = {**scenario.interfaces, **named_interfaces(name, bound)}
         scenario = msgspec.structs.replace(scenario, interfaces=interfaces, types={**scenario.types, name: bound})
     name = case["subject"]
-    readings = dict(stated_by(None, "reference-py").readings) | dict(
-        VARIANTS[name].readings if name in VARIANTS else {}
-    )
+    readings = {
+        **stated_by(None, "reference-py").readings,
+        **(VARIANTS[name].readings if name in VARIANTS else {}),
+        **case.get("declared", {}),
+    }
     subject = f"ucm_cts.adapters.mutants.python:{name}" if name in VARIANTS else name
     with Driver(locate(subject, virtual_time=True), 1) as driver:
         (answer,) = driver.run([(case["name"], scenario)])

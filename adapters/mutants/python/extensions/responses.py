@@ -40,7 +40,7 @@ class answers_the_first_client(Link):
         first.taker.enter(RESPONSE, [response, opened.number])
 
 
-@breaks("R-10.4.1.2-13", clauses=REQUESTS, also=("R-10.4.1.2-07", "R-10.4.1.2-20"))
+@breaks("R-10.4.1.2-13", clauses=REQUESTS, also=("R-10.4.1.2-07", "R-10.4.1.2-10"))
 class answers_the_first_port(Link):
     """A response goes to the first port of the component that asked."""
 
@@ -253,7 +253,7 @@ class drops_all_with_one_client(Link):
                 self._drop(request)
 
 
-@breaks("R-10.4.1.2-08", "R-10.4.1.1-10", clauses=REQUESTS, also=("R-10.4.1.2-09",))
+@breaks("R-10.4.1.2-08", "R-10.4.1.1-10", clauses=REQUESTS, also=("R-10.4.1.2-07", "R-10.4.1.2-09"))
 class calls_back_nobody_after_a_stop(Link):
     """When one client has been stopped, responses to others are taken and do not come."""
 
