@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.reference_models.conclusions import Conclusions, takes
@@ -12,7 +14,7 @@ from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import TimeOut, Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_options import reading_of
-from ucm_cts.reference_models.model.timer_times import MOST, earliest, free_after, latest, sure_rounds
+from ucm_cts.reference_models.model.timer_times import MOST, busy, earliest, free_after, latest, sure_rounds
 from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -55,6 +57,50 @@ def rounds_are_bounded(check: Property, runtime: ObservedRuntime) -> Conclusions
                         *noticed(runtime, latest(runtime, timer, timer.max_rounds - 1)),
                     ),
                 )
+
+
+@property_at("closed", _BOUNDED, feature="timers", timed=True)
+def rounds_by_identifier(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """Where several repeated timers of one handler have as many rounds, and are told apart by their identifiers only, each identifier comes as
+    often as that.
+    """
+    for phase in object_timer_phases(runtime):
+        for handler in sorted({timer.handler for timer in phase.timers if timer.is_contested}):
+            timers = [timer for timer in phase.timers if timer.handler == handler]
+            triggers = [callback for callback in phase.callbacks if callback.enter.port == handler]
+            rounds = timers[0].max_rounds
+            if not rounds or not _are_alike(timers, triggers) or not all(_is_over(runtime, timer) for timer in timers):
+                continue
+            came = Counter(printed([trigger.id]) for trigger in triggers)
+            wrong = [identifier for identifier, times in came.items() if times != rounds]
+            if len(came) != len(timers):
+                continue  # that identifiers differ is another requirement
+            if not wrong:
+                yield check.kept()
+                continue
+            yield check.fail(
+                "rounds of others",
+                expected=f"each of {len(timers)} timers of handler '{handler}' of '{phase.member.lane}' triggers {rounds} times",
+                observed=f"the one with the identifier {wrong[0][1:-1]} triggered {came[wrong[0]]} times",
+                at=(*(timer.call.request.n for timer in timers), *(trigger.n for trigger in triggers)),
+            )
+
+
+def _are_alike(timers: list[Timer], triggers: list[TimerCallback]) -> bool:
+    """Have all one scheduler and as many rounds, waited together, and does each trigger tell its identifier?"""
+    first = triggers[0].n if triggers else 0
+    same = len({(timer.call.request.port, timer.max_rounds) for timer in timers}) == 1
+    plain = all(t.is_started and t.has_usual_times and not t.cancels and t.call.over < first for t in timers)
+    return same and plain and all(trigger.id is not None and not trigger.may_be_earlier for trigger in triggers)
+
+
+def _is_over(runtime: ObservedRuntime, timer: Timer) -> bool:
+    """Have all its rounds been due, and did nothing keep one out or raise?"""
+    due = latest(runtime, timer, (timer.max_rounds or 1) - 1)
+    late = lateness(runtime)
+    spans = [span for span in busy(runtime, timer.until[1]) if span[1] is None or span[1] - span[0] > late]
+    raised = any(callback.execution.failed for callback in timer.phase.callbacks)
+    return due is not None and due + late < timer.until[1] and not spans and not raised
 
 
 def _is_quiet(timer: Timer, rate: TimeOut) -> bool:

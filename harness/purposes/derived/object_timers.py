@@ -166,7 +166,9 @@ def _handlers() -> TestPurpose:
     cases.append(("in turn", alone(scheduling(*turns), tell(1), after(0.8))))
     beside = (*identified(once(0.7, 1)), repeated(0.2, 0.3, 3, 1))
     cases.append(("single and repeated", alone(scheduling(*beside), tell(1), after(0.9))))
-    return _about("handlers", "25 26 28 29", *cases)
+    both = (repeated(0.2, 0.3, 3, 1), repeated(0.35, 0.3, 3, 1))
+    cases.append(("two repeated on one", alone(scheduling(*both), tell(1), after(1.3))))
+    return _about("handlers", "23 25 26 28 29", *cases)
 
 
 def _asked() -> TestPurpose:

@@ -325,3 +325,13 @@ class ends_timers_that_raise_undeclared(EndsObjectsThatRaise):
 @breaks("R-10.3.1-23", clauses=TRIGGERED, readings={"object-callback-exception": "ends"})
 class goes_on_after_exceptions_undeclared(Base):
     """A repeated timer whose handler raises goes on, although it is declared to end."""
+
+
+@breaks("R-10.3.1-23", clauses=TRIGGERED)
+class counts_rounds_by_handler(Triggers):
+    """Timers with one handler use up each other's rounds."""
+
+    def _is_last(self, timer: Trigger) -> bool:
+        made = self.__dict__.setdefault("made", {})
+        made[timer.handler] = made.get(timer.handler, 0) + 1
+        return bool(made[timer.handler] >= timer.max_rounds)
