@@ -1,4 +1,4 @@
-"""JSON Schema of our types, the same with every version of msgspec that we support."""
+"""JSON Schema of our types, the same with msgspec 0.22 and 0.23."""
 
 from __future__ import annotations
 

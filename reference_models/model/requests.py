@@ -133,8 +133,10 @@ def _pair_by_number(found: Requests, callback: Callback) -> None:
 
 
 def is_sound(runtime: ObservedRuntime, asked: Asked, until: int = NEVER) -> bool:
-    """Was everything in order from the request until that event: one server, all operational and attached in time, no connection broken, and
-    nothing stopped or undone but containers that have neither of the two?
+    """Was everything in order from the request until that event?
+
+    There was one server, and both were operational and attached in time. No connection was broken, no component was removed, no connection was
+    undone, and no container was stopped that has one of the two.
     """
     call, link = asked.call, asked.call.link
     if link is None or not link.is_proper or not call.ready or not call.prepared:

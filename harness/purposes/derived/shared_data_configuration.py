@@ -328,7 +328,9 @@ class Configuration(ConnectionSteps):
 
 
 def purpose_about(name: str, text: str, requirements: str, scenarios: Sequence[tuple[str, Scenario]]) -> TestPurpose:
-    """The test purpose of that name; ``requirements`` are the numbers of its requirements, those of another clause than 10.4.2 with a dot or hyphen."""
+    """The test purpose of that name. ``requirements`` are identifiers without their beginning: ``2-06`` is R-10.4.2.2-06, ``.2-06`` is R-10.4.2-06
+    and ``-04`` is R-10.4-04.
+    """
     ids = tuple(f"R-10.4{one}" if one.startswith((".", "-")) else f"R-10.4.2.{one}" for one in requirements.split())
     cases = tuple((f"shared data/{n}", one) for n, one in scenarios)
     return TestPurpose(f"shared data/{name}", _CLAUSE, text, ids, cases)

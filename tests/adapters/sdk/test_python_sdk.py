@@ -91,14 +91,21 @@ def test_hello_is_answered_with_welcome() -> None:
         (b'{"type":"dance"}', "Invalid value 'dance'"),
         (b'{"type":"hello","protocol":"2"}', "Expected `int`, got `str`"),
         (b'{"type":"run","id":1,"scenario":{"components":{},"steps":[{"op":"start","x":1}]}}', "unknown field `x`"),
-        (b'{"type":"\xff"}', "UTF-8"),
     ],
 )
 def test_breach_of_protocol_is_refused_and_the_engine_goes_on(line: bytes, reason: str) -> None:
     engine = Engine(ReferenceAdapter)
     reply = from_host_decoder().decode(engine.answer(line))
     assert isinstance(reply, Refused)
-    assert reason.lower() in reply.reason.lower()
+    assert reason in reply.reason
+    assert isinstance(from_host_decoder().decode(engine.answer(encode(Hello(PROTOCOL)))), Welcome)
+
+
+def test_line_in_another_encoding_is_refused_and_the_engine_goes_on() -> None:
+    engine = Engine(ReferenceAdapter)
+    reply = from_host_decoder().decode(engine.answer(b'{"type":"\xff"}'))
+    assert isinstance(reply, Refused)
+    assert "utf-8" in reply.reason.lower()  # msgspec spells it in either way
     assert isinstance(from_host_decoder().decode(engine.answer(encode(Hello(PROTOCOL)))), Welcome)
 
 
