@@ -131,6 +131,11 @@ def busy(runtime: ObservedRuntime, before: int) -> Iterator[tuple[int, int | Non
                     yield execution.enter.t, execution.left if execution.over else None
 
 
+def is_long(runtime: ObservedRuntime, begin: int, end: int | None) -> bool:
+    """May an execution that began and ended then keep more than one callback out?"""
+    return end is None or end - begin > lateness(runtime)
+
+
 def may_be_delayed(runtime: ObservedRuntime, callback: TimerCallback, since: int = 0) -> bool:
     """Did another execution of a component with timers, for longer than a moment, end so lately that it may have kept ``callback`` out, or, with
     ``since``, after that?

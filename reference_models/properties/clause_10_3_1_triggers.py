@@ -14,7 +14,7 @@ from ucm_cts.reference_models.model.paced_phases import granularity, lateness
 from ucm_cts.reference_models.model.phases import noticed
 from ucm_cts.reference_models.model.timer_events import TimeOut, Timer, TimerCallback, TimerPhase
 from ucm_cts.reference_models.model.timer_options import reading_of
-from ucm_cts.reference_models.model.timer_times import MOST, busy, earliest, free_after, latest, sure_rounds
+from ucm_cts.reference_models.model.timer_times import MOST, busy, earliest, free_after, is_long, latest, sure_rounds
 from ucm_cts.reference_models.properties.clause_10_3 import at_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -97,10 +97,9 @@ def _are_alike(timers: list[Timer], triggers: list[TimerCallback]) -> bool:
 def _is_over(runtime: ObservedRuntime, timer: Timer) -> bool:
     """Have all its rounds been due, and did nothing keep one out or raise?"""
     due = latest(runtime, timer, (timer.max_rounds or 1) - 1)
-    late = lateness(runtime)
-    spans = [span for span in busy(runtime, timer.until[1]) if span[1] is None or span[1] - span[0] > late]
+    held = any(is_long(runtime, begin, end) for begin, end in busy(runtime, timer.until[1]))
     raised = any(callback.execution.failed for callback in timer.phase.callbacks)
-    return due is not None and due + late < timer.until[1] and not spans and not raised
+    return due is not None and due + lateness(runtime) < timer.until[1] and not held and not raised
 
 
 def _is_quiet(timer: Timer, rate: TimeOut) -> bool:

@@ -21,6 +21,7 @@ from ucm_cts.reference_models.model.timer_times import (
     earliest,
     free_after,
     is_kept_out,
+    is_long,
     last_expiry,
     latest,
     may_be_delayed,
@@ -162,12 +163,7 @@ def _is_busy(runtime: ObservedRuntime, timer: Timer, due: int) -> bool:
 
 def _long_executions(runtime: ObservedRuntime, timer: Timer) -> list[Execution]:
     """The executions of its component that may keep more than one callback out."""
-    return [e for e in timer.phase.executions if _is_long(runtime, e.enter.t, e.left if e.over else None)]
-
-
-def _is_long(runtime: ObservedRuntime, begin: int, end: int | None) -> bool:
-    """May an execution that began and ended then keep more than one callback out?"""
-    return end is None or end - begin > lateness(runtime)
+    return [e for e in timer.phase.executions if is_long(runtime, e.enter.t, e.left if e.over else None)]
 
 
 def _stops(
@@ -184,7 +180,7 @@ def _stops(
     ends = [
         timer.until[1] if end is None else end
         for begin, end in busy(runtime, timer.until[1])
-        if _is_long(runtime, begin, end)
+        if is_long(runtime, begin, end)
     ]
     quiet_since = max([free, *(callback.t for callback in timer.callbacks[-1:]), *ends])
     if until - quiet_since > 2 * timer.rate.lasts + lateness(runtime):

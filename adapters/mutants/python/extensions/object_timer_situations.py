@@ -335,3 +335,12 @@ class counts_rounds_by_handler(Triggers):
         made = self.__dict__.setdefault("made", {})
         made[timer.handler] = made.get(timer.handler, 0) + 1
         return bool(made[timer.handler] >= timer.max_rounds)
+
+
+@breaks("R-10.3.1-36", clauses=TRIGGERED, also=("R-10.3.1-23",))
+class gives_up_rounds_that_wait(Triggers):
+    """A repeated timer ends with a round that waited for its component for a tenth of a second."""
+
+    def _following(self, timer: Timer) -> Timer | None:
+        has_waited = timer.rate is not None and time.monotonic() - timer.due > 0.1
+        return None if has_waited else super()._following(timer)
