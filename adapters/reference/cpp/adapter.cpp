@@ -89,7 +89,7 @@ std::shared_ptr<lwucm::PortElementObject> Lwucm::typed(const ucm_cts::Reference&
 
 std::shared_ptr<ucm_cts::TimerScheduler> Lwucm::scheduler(const std::shared_ptr<PortElementObject>& element) {
     const auto scheduler = std::dynamic_pointer_cast<lwucm::ott_scheduler>(element);
-    return scheduler ? std::make_shared<WrappedScheduler>(scheduler) : nullptr;
+    return scheduler ? std::make_shared<WrappedScheduler<LwucmTimers>>(scheduler) : nullptr;
 }
 
 ucm_cts::Data Lwucm::call(PortElementObject& element, const std::string& name, const ucm_cts::Data& arguments) {

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import pytest
-from cpp_builds import Builds, events
+from cpp_builds import Builds
 from cpp_timers import EXECUTIONS, TELL, check_times, ended, first, replies, traced, while_called
 
 from ucm_cts.adapters.contract import scenario as s
@@ -216,10 +216,3 @@ def test_a_component_has_both_kinds_of_timers(builds: Builds) -> None:
     assert rounds(trace) == [1]
     assert rounds(trace, s.TIMER_CALLBACK) == [1, 2], "numbers"
     assert replies(trace, "timer.timer_service") == [(), ()]
-
-
-def test_typed_hosts_have_generic_bodies_for_timers(builds: Builds) -> None:
-    typed = builds.reference.with_name("reference-cpp-typed")
-    steps = (s.AddComponent("A"), s.GetPortElement("A", "in", "tell"), s.Start(), TELL, s.Pause(150), s.Stop())
-    trace = events(typed, s.Scenario({"A": timed(once(0))}, steps))
-    assert rounds(trace) == [1]

@@ -220,10 +220,3 @@ def test_policies_that_are_refused(builds: Builds, definition: str, wrong: str) 
     }[wrong]
     scenario = s.Scenario({"A": s.Declaration(("in",), policies=policies)}, (s.AddComponent("A"),))
     assert [e.error for e in events(builds.reference, scenario) if isinstance(e, t.Raise)] == ["UCM_ERROR"]
-
-
-def test_typed_hosts_have_generic_bodies_for_timers(builds: Builds) -> None:
-    typed = builds.reference.with_name("reference-cpp-typed")
-    steps = (s.AddComponent("A"), s.GetPortElement("A", "in", "tell"), s.Start(), TELL, s.Pause(150), s.Stop())
-    trace = events(typed, s.Scenario({"A": timed(sporadic(1, relative(0)))}, steps))
-    assert numbers(trace) == [1]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import msgspec
 import pytest
 from cpp_builds import FRAMEWORK, FRAMEWORK_SOURCES, NATIVE, STRICT, Builds, concurrent_scenarios, run, talk
 from files import ROOT
-from typed_files import COMMAND, GENERATED, generated
+from typed_files import COMMAND, GENERATED, PARTS, generated
 
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
@@ -44,11 +45,11 @@ def test_generated_files_are_those_of_the_probe_models() -> None:
 
 
 def test_each_probe_of_the_models_has_a_typed_body() -> None:
-    header = (GENERATED / "probes.hpp").read_text()
-    written = (GENERATED.parent / "probes.hpp").read_text()
+    parts = re.findall(r'<AtomicComponentImplementation name="(\w+)_body"', PARTS.read_text())
     types = list(load_probe_types())
-    assert re.findall(r"class Abstract_(\w+)_body \{", header) == types
-    assert re.findall(r"::probes::Abstract_(\w+)_body>", written) == types
+    assert re.findall(r"class Abstract_(\w+)_body \{", (GENERATED / "probes.hpp").read_text()) == [*parts, *types]
+    assert re.findall(r"::probes::Abstract_(\w+)_body>", (GENERATED.parent / "probes.hpp").read_text()) == types
+    assert re.findall(r"::parts::Abstract_(\w+)_body>", (GENERATED.parent / "parts.hpp").read_text()) == parts
 
 
 @pytest.mark.parametrize("wrong", ["", "UCM_CTS_NOTHING"])
@@ -63,13 +64,14 @@ def test_the_task_refuses_wrong_models(wrong: str) -> None:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """With lwucm's object file, and what is generated from ``schools.xml``."""
+    """With lwucm's object file, and what is generated from the models of the programs."""
     if shutil.which("c++") is None:
         pytest.skip("needs a C++ compiler")
     folder = tmp_path_factory.mktemp("typed")
     (folder / "framework.cpp").write_text("".join(f'#include "{source}"\n' for source in FRAMEWORK_SOURCES))
     run(["c++", "-std=c++11", "-g1", *_INCLUDED, "-c", folder / "framework.cpp", "-o", folder / "framework.o"])
-    generate(NATIVE / "schools.xml", folder)
+    for model in ("schools", "libraries"):
+        generate(NATIVE / f"{model}.xml", folder)
     return folder
 
 
@@ -91,27 +93,34 @@ def build(source: Path, folder: Path, program: Path, *headers: Path) -> Path:
     return program
 
 
-def test_typed_bodies_are_hosted_as_documented(folder: Path) -> None:
-    program = build(NATIVE / "lwucm_typed.cpp", folder, folder / "right", folder)
+@pytest.mark.parametrize("name", ["lwucm_typed", "lwucm_typed_calls"])
+def test_typed_bodies_are_hosted_as_documented(name: str, folder: Path) -> None:
+    program = build(NATIVE / f"{name}.cpp", folder, folder / name, folder)
     done = subprocess.run([program], capture_output=True, text=True, check=False, timeout=60)
     assert (done.stderr, done.returncode) == ("", 0)
 
 
 _LESSON = "connections.required< ::school_api::Abstract_lesson >"
 WRONG = {
-    "connections are exchanged": (f"{_LESSON}(0), {_LESSON}(1)", f"{_LESSON}(1), {_LESSON}(0)"),
-    "one getter for two": ("return body.get_extra_hello();", "return body.get_main_hello();"),
-    "a stand-in forgets": ("{ this->target_->mood(value); }", "{ static_cast<void>(value); }"),
+    "connections are exchanged": ("schools", f"{_LESSON}(0), {_LESSON}(1)", f"{_LESSON}(1), {_LESSON}(0)"),
+    "one getter for two": ("schools", "return body.get_extra_hello();", "return body.get_main_hello();"),
+    "a stand-in forgets": ("schools", "{ this->target_->mood(value); }", "{ static_cast<void>(value); }"),
+    "one result for two": ("libraries", "::from(results.at(1));", "::from(results.at(0));"),
+    "an exception of another name": ("libraries", 'raised.name == "closed"', 'raised.name == "close"'),
+    "an enumerator of another name": ("libraries", "kind_t::atlas) { return", "kind_t::novel) { return"),
 }
+"""What is written wrong in the header of which model: the right text, and the wrong one."""
+PROGRAMS = {"schools": "lwucm_typed.cpp", "libraries": "lwucm_typed_calls.cpp"}
 
 
 @pytest.mark.parametrize("defect", WRONG)
 def test_wrong_glue_is_found_out(defect: str, folder: Path, tmp_path: Path) -> None:
-    right, wrong = WRONG[defect]
-    text = (folder / "schools_lwucm.hpp").read_text()
+    model, right, wrong = WRONG[defect]
+    header = f"{model}_lwucm.hpp"
+    text = (folder / header).read_text()
     assert right in text
-    (tmp_path / "schools_lwucm.hpp").write_text(text.replace(right, wrong))
-    program = build(NATIVE / "lwucm_typed.cpp", folder, tmp_path / "wrong", tmp_path, folder)
+    (tmp_path / header).write_text(text.replace(right, wrong))
+    program = build(NATIVE / PROGRAMS[model], folder, tmp_path / "wrong", tmp_path, folder)
     done = subprocess.run([program], capture_output=True, text=True, check=False, timeout=60)
     assert done.returncode == 1
     assert re.search(r"^line \d+: ", done.stderr)
@@ -175,6 +184,28 @@ def test_profile_container_needs_no_generic_body(typed: str, builds: Builds, mon
     for answer in answers(typed, every.items()):
         if answer.name in compared:
             assert reported(answer) == compared[answer.name], answer.name
+
+
+def test_parts_of_profile_extensions_have_typed_bodies(typed: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Requests, shared data, timers and what 10.5 paces, in virtual time: nearly all scenarios have nothing but typed bodies."""
+    monitor = Monitor(load_life_cycle(), read_statement(TYPED_STATEMENT).ics)
+    monkeypatch.setenv(BODIES, "typed")
+    parts = [
+        purpose
+        for purpose in load_purposes("extensions")
+        if purpose.clause in ("10.3.1", "10.3.2", "10.4.1", "10.4.2", "10.5")
+    ]
+    every = [(f"{purpose.clause} {name}", case) for purpose in parts for name, case in purpose.scenarios]
+    typed_ones = Counter[str]()
+    with Driver(locate(typed, virtual_time=True), seed=7) as driver:
+        for answer in driver.run(every):
+            if answer.incident is None:
+                assert monitor.judge(answer.disguised, answer.trace).findings == [], answer.name
+                typed_ones[answer.name.split()[0]] += 1
+            else:  # another type of data, several ports, policies that a component may not have
+                assert "no component type of the models" in answer.incident.detail, answer.name
+    for clause, share in {"10.3.1": 0.8, "10.3.2": 0.8, "10.4.1": 0.5, "10.4.2": 0.75, "10.5": 0.9}.items():
+        assert typed_ones[clause] > share * sum(name.startswith(f"{clause} ") for name, _ in every), clause
 
 
 def test_components_outside_models_have_generic_bodies(typed: str, monkeypatch: pytest.MonkeyPatch) -> None:

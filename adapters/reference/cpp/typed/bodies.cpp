@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "../values.hpp"
+#include "parts.hpp"
 #include "probes.hpp"
 
 namespace reference_cpp {
@@ -27,20 +29,62 @@ void host(const Shaped& from, lwucm::Implementation& implementation) {
     lwucm::host<Abstract>(implementation, [maker, shared] { return maker(*shared); });
 }
 
+/// The policies by which a component provides or requires port elements. Those of one kind ask the same of a body.
+const std::string& kind_of(const std::string& definition) {
+    static const std::string self_executing = "self-executing";
+    static const std::string none;
+    static const std::vector<std::string> others = {ucm_cts::INDEX_TIMERS, ucm_cts::OBJECT_TIMERS, "clock",
+                                                    "component_trace"};
+    if (ucm_cts::is_self_executing(definition)) {
+        return self_executing;
+    }
+    const auto found = std::find(others.begin(), others.end(), definition);
+    return found != others.end() ? *found : none;
+}
+
+std::vector<std::string> kinds_of(const Shaped& one) {
+    std::vector<std::string> kinds;
+    for (const ucm_cts::Policy& policy : one.policies) {
+        if (!kind_of(policy.definition).empty()) {
+            kinds.push_back(kind_of(policy.definition));
+        }
+    }
+    return kinds;
+}
+
+/// Have all port elements that a scenario gives an interface to the interface of the models, and no others one of links?
+bool fit(const lwucm::Implementation::Names& ports, const std::vector<lwucm::InterfacePtr>& modelled, const Shaped& one) {
+    const lwucm::InterfacePtr exchange = lwucm::TypedCalls<Exchange>::description();
+    for (std::size_t n = 0; n < ports.size(); ++n) {
+        const auto known = one.interfaces.find(ports[n]);
+        const lwucm::InterfacePtr wanted = known == one.interfaces.end() ? exchange : lwucm_interface(*known->second);
+        if (!modelled[n] || !lwucm::same_interface(*wanted, *modelled[n])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// A component type of the models, and how its probe is hosted.
 struct Type {
     lwucm::TypedNames names;
+    lwucm::TypedInterfaces interfaces;
+    std::vector<std::string> kinds;
     void (*host)(const Shaped&, lwucm::Implementation&);
 
     bool fits(const Shaped& one) const {
         return names.provided.size() == one.provided.size() && names.required.size() == one.required.size() &&
-               names.attributes.size() >= one.attributes.size();
+               names.attributes.size() >= one.attributes.size() && kinds_of(one) == kinds &&
+               fit(one.provided, interfaces.provided, one) && fit(one.required, interfaces.required, one);
     }
 };
 
+/// `kind` is that of the policy that the probe has, if it has one.
 template <class Probe>
-Type type() {
-    return {lwucm::TypedGlue<typename Probe::Abstract>::names(), host<Probe>};
+Type type(const std::string& kind = "") {
+    typedef lwucm::TypedGlue<typename Probe::Abstract> Glue;
+    const std::vector<std::string> kinds(kind.empty() ? 0 : 1, kind);
+    return {Glue::names(), Glue::interfaces(), kinds, host<Probe>};
 }
 
 const std::vector<Type>& types() {
@@ -48,7 +92,10 @@ const std::vector<Type>& types() {
         type<Hermit>(), type<Source>(),   type<Sink>(),          type<Relay>(),   type<Junction>(),
         type<Twin>(),   type<Labelled>(), type<LabelledRelay>(), type<Fork>(),    type<LabelledTwin>(),
         type<Merger>(), type<Exchanger>(), type<Triplet>(),      type<Funnel>(),  type<Hub>(),
-        type<FanOfThree>(), type<FanOfEight>(), type<Rack>(), type<Inscribed>()};
+        type<FanOfThree>(), type<FanOfEight>(), type<Rack>(), type<Inscribed>(),
+        type<Asker>(), type<LaterAsker>(), type<Answerer>(), type<LaterAnswerer>(), type<Setter>(), type<Getter>(),
+        type<Counting>(ucm_cts::INDEX_TIMERS), type<Scheduling>(ucm_cts::OBJECT_TIMERS),
+        type<Running>("self-executing")};
     return all;
 }
 
@@ -58,22 +105,10 @@ bool asked_for(const std::string& bodies) {
     return chosen != nullptr && chosen == bodies;
 }
 
-/// Interfaces that only a scenario knows are in no model, and neither are the policies by which a component provides or requires
-/// port elements.
-bool is_modelled(const Shaped& one) {
-    static const std::vector<std::string> with_port_elements = {ucm_cts::SELF_EXECUTING, ucm_cts::PERIODIC_SELF_EXECUTING,
-                                                                ucm_cts::BACKGROUND, ucm_cts::INDEX_TIMERS,
-                                                                ucm_cts::OBJECT_TIMERS, "clock", "component_trace"};
-    return one.interfaces.empty() &&
-           std::none_of(one.policies.begin(), one.policies.end(), [](const ucm_cts::Policy& policy) {
-               return std::count(with_port_elements.begin(), with_port_elements.end(), policy.definition) != 0;
-           });
-}
-
 void host_where_modelled(const Shaped& one, lwucm::Implementation& implementation) {
     const auto fitting =
         std::find_if(types().begin(), types().end(), [&one](const Type& candidate) { return candidate.fits(one); });
-    if (is_modelled(one) && fitting != types().end()) {
+    if (fitting != types().end()) {
         fitting->host(one, implementation);
     } else if (asked_for("typed")) {
         throw std::invalid_argument("no component type of the models has what " + one.name + " has");

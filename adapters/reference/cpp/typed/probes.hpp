@@ -15,33 +15,58 @@ namespace reference_cpp {
 typedef ucm_cts::ShapedImplementation<Lwucm> Shaped;
 typedef ::probe_api::Abstract_exchange_intf Exchange;
 typedef std::shared_ptr<Exchange> ExchangePointer;
-typedef ::ucm::PortConnection<Exchange> ExchangeConnection;
+
+/// What a typed body was given, for the SDK. References of interfaces other than the probes' are called by name.
+template <class Interface>
+struct Given {
+    static ucm_cts::Reference wrap(const std::shared_ptr<Interface>& typed) {
+        return ucm_cts::ShapedReference<Lwucm>::wrap(lwucm::by_name<Interface>(typed));
+    }
+};
+
+template <>
+struct Given<Exchange> {
+    static ucm_cts::Reference wrap(const ExchangePointer& typed) {
+        return ucm_cts::ShapedReference<Lwucm>::wrap(typed);
+    }
+};
 
 /// The SDK's probe in a typed body. Its port elements and attributes have the names that the scenario gives them.
 class Core {
   public:
     explicit Core(const Shaped& from) : body(from.create_body()), attributes_(from.attributes) {
         for (const std::string& port : from.provided) {
-            elements_.push_back(std::make_shared<ucm_cts::ShapedPort<Lwucm>>(body->get_portElement(port)));
+            const ucm_cts::Reference own = body->get_portElement(port);
+            const auto interface = from.interfaces.find(port);
+            if (interface != from.interfaces.end()) {
+                elements_.push_back(Lwucm::typed(own, interface->second));
+            } else {
+                elements_.push_back(std::make_shared<ucm_cts::ShapedPort<Lwucm>>(own));
+            }
         }
     }
 
-    void start(const std::vector<ExchangeConnection>& connections) {
-        std::vector<ucm_cts::PortConnection> dependencies;
-        for (const ExchangeConnection& one : connections) {
-            dependencies.push_back({one.port_name, {ucm_cts::ShapedReference<Lwucm>::wrap(one.ref)}});
-        }
-        body->on_startup(dependencies);
+    template <class... Interfaces>
+    void start(const ::ucm::PortConnection<Interfaces>&... connections) {
+        body->on_startup({ucm_cts::PortConnection{connections.port_name, {Given<Interfaces>::wrap(connections.ref)}}...});
     }
 
     void configure(std::size_t n, const std::string& value) { body->set_attribute(attributes_.at(n), value); }
-    const ExchangePointer& element(std::size_t n) const { return elements_.at(n); }
+
+    /// The port element in the interface that the model gives to it.
+    ExchangePointer element(std::size_t n) const { return std::dynamic_pointer_cast<Exchange>(elements_.at(n)); }
+
+    /// The same of one that links call.
+    template <class Interface>
+    std::shared_ptr<Interface> called_by_links(std::size_t n) const {
+        return lwucm::TypedReference<Interface>::to(elements_.at(n));
+    }
 
     const std::shared_ptr<ucm_cts::Body> body;
 
   private:
     const std::vector<std::string> attributes_;
-    std::vector<ExchangePointer> elements_;
+    std::vector<std::shared_ptr<lwucm::PortElementObject>> elements_;
 };
 
 /// What all typed probes have in common.
@@ -122,7 +147,7 @@ template <class Probe>
 class RequiresNothing : public Probe {
   public:
     using Probe::Probe;
-    void on_startup() override { this->core.start({}); }
+    void on_startup() override { this->core.start(); }
 };
 
 /// A probe that requires `out`.
@@ -130,7 +155,7 @@ template <class Probe>
 class RequiresOne : public Probe {
   public:
     using Probe::Probe;
-    void on_startup(const ::probes::out_api_Connection& out_api) override { this->core.start({out_api}); }
+    void on_startup(const ::probes::out_api_Connection& out_api) override { this->core.start(out_api); }
 };
 
 /// A probe that requires `left` and `right`.
@@ -140,7 +165,7 @@ class RequiresTwo : public Probe {
     using Probe::Probe;
     void on_startup(const ::probes::left_api_Connection& left_api,
                     const ::probes::right_api_Connection& right_api) override {
-        this->core.start({left_api, right_api});
+        this->core.start(left_api, right_api);
     }
 };
 
@@ -152,7 +177,7 @@ class RequiresThree : public Probe {
     void on_startup(const ::probes::out0_api_Connection& out0_api,
                     const ::probes::out1_api_Connection& out1_api,
                     const ::probes::out2_api_Connection& out2_api) override {
-        this->core.start({out0_api, out1_api, out2_api});
+        this->core.start(out0_api, out1_api, out2_api);
     }
 };
 
@@ -169,7 +194,7 @@ class RequiresEight : public Probe {
                     const ::probes::out5_api_Connection& out5_api,
                     const ::probes::out6_api_Connection& out6_api,
                     const ::probes::out7_api_Connection& out7_api) override {
-        this->core.start({out0_api, out1_api, out2_api, out3_api, out4_api, out5_api, out6_api, out7_api});
+        this->core.start(out0_api, out1_api, out2_api, out3_api, out4_api, out5_api, out6_api, out7_api);
     }
 };
 

@@ -31,6 +31,15 @@ def base_interfaces(interface: Declared) -> list[Declared]:
     return [find(i.interface, interface.scope, contracts.Interface) for i in interface.element.inherited_interfaces]
 
 
+def family(interface: Declared) -> list[Declared]:
+    """``interface`` after all that it inherits, each once."""
+    found: list[Declared] = []
+    for base in base_interfaces(interface):
+        known = {one.path for one in found}
+        found += [one for one in family(base) if one.path not in known]
+    return [*found, interface]
+
+
 def mentioned(interface: contracts.Interface) -> list[str]:
     """The references to types in the signatures of ``interface``."""
     parameters = [p.type for m in interface.methods for p in m.parameters]

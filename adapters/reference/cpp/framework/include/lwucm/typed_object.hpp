@@ -8,9 +8,11 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lwucm/errors.hpp"
 #include "lwucm/repository.hpp"
+#include "lwucm/typed_calls.hpp"
 
 namespace lwucm {
 
@@ -46,7 +48,10 @@ class TypedConnections {
     template <class Interface>
     ::ucm::PortConnection<Interface> of(const std::string& name) const {
         const std::shared_ptr<PortElementObject> element = find(name);
-        const std::shared_ptr<Interface> typed = std::dynamic_pointer_cast<Interface>(element);
+        std::shared_ptr<Interface> typed = std::dynamic_pointer_cast<Interface>(element);
+        if (element && !typed) {
+            typed = TypedReference<Interface>::to(element);
+        }
         if (element && !typed) {
             throw UCM_ERROR("port element '" + name + "' is connected to one with another interface");
         }
@@ -66,6 +71,12 @@ class TypedConnections {
     const TypedNames& names_;
 };
 
+/// The interfaces of the port elements of a type, in the order of the model; null for one that cannot be called by name.
+struct TypedInterfaces {
+    std::vector<InterfacePtr> provided;
+    std::vector<InterfacePtr> required;
+};
+
 /// A typed body of any type.
 class TypedBody {
   public:
@@ -75,8 +86,13 @@ class TypedBody {
     virtual void on_shutdown() = 0;
     virtual void on_remove() = 0;
     virtual std::shared_ptr<PortElementObject> provided(std::size_t n) = 0;
+
+    /// The same port element as a DynamicPortElement; null if it cannot be called by name.
+    virtual std::shared_ptr<PortElementObject> provided_by_name(std::size_t n) = 0;
+
     virtual void set_attribute(std::size_t n, const std::string& value) = 0;
     virtual std::shared_ptr<component_execution_intf> execution() = 0;
+    virtual std::shared_ptr<PortElementObject> policy_port(const std::string& policy, const std::string& element) = 0;
 
     /// What the body implements beside its abstract class, or null.
     virtual Connectable* connectable() = 0;
@@ -90,33 +106,43 @@ inline std::size_t index_of(const std::string& name, const Implementation::Names
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+/// What is the same for all bodies of an implementation. `by_name` are the provided port elements that are called by name, by
+/// number.
+struct TypedShape {
+    TypedNames names;
+    std::vector<bool> by_name;
+};
+
 /// A typed body in the generic shape, which asks for names.
 class TypedObject : public ComponentObject {
   public:
-    TypedObject(std::shared_ptr<TypedBody> its_body, std::shared_ptr<const TypedNames> names)
-        : body(std::move(its_body)), names_(std::move(names)) {}
+    TypedObject(std::shared_ptr<TypedBody> its_body, std::shared_ptr<const TypedShape> shape)
+        : body(std::move(its_body)), shape_(std::move(shape)) {}
 
     void on_init() override { body->on_init(); }
     void on_remove() override { body->on_remove(); }
     void on_shutdown() override { body->on_shutdown(); }
 
     void on_startup(const PortConnections& dependencies) override {
-        body->on_startup(TypedConnections(dependencies, *names_));
+        body->on_startup(TypedConnections(dependencies, shape_->names));
     }
 
     std::shared_ptr<PortElementObject> get_portElement(const std::string& provided) override {
-        const std::size_t n = index_of(provided, names_->provided);
-        return n < names_->provided.size() ? body->provided(n) : nullptr;
+        const std::size_t n = index_of(provided, shape_->names.provided);
+        if (n == shape_->names.provided.size()) {
+            return nullptr;
+        }
+        return shape_->by_name[n] ? body->provided_by_name(n) : body->provided(n);
     }
 
     void set_attribute(const std::string& name, const std::string& value) {
-        body->set_attribute(index_of(name, names_->attributes), value);
+        body->set_attribute(index_of(name, shape_->names.attributes), value);
     }
 
     const std::shared_ptr<TypedBody> body;
 
   private:
-    const std::shared_ptr<const TypedNames> names_;
+    const std::shared_ptr<const TypedShape> shape_;
 };
 
 template <class Base>
@@ -141,12 +167,12 @@ class TypedFragment : public TypedObject, public FragmentObject {
 };
 
 typedef std::shared_ptr<ComponentObject> (*MakeObject)(const std::shared_ptr<TypedBody>&,
-                                                       const std::shared_ptr<const TypedNames>&);
+                                                       const std::shared_ptr<const TypedShape>&);
 
 template <class Object>
 std::shared_ptr<ComponentObject> make_object(const std::shared_ptr<TypedBody>& body,
-                                             const std::shared_ptr<const TypedNames>& names) {
-    return std::make_shared<Object>(body, names);
+                                             const std::shared_ptr<const TypedShape>& shape) {
+    return std::make_shared<Object>(body, shape);
 }
 
 /// What makes an object that is a Connectable or a FragmentObject if the body is one.
@@ -165,14 +191,27 @@ typedef std::shared_ptr<PortElementObject> (*TypedIntercept)(std::size_t,
                                                              const std::shared_ptr<PortElementObject>& target,
                                                              const std::shared_ptr<Interceptor>& interceptor);
 
-/// Has `implementation`, under the names that it has, make these bodies instead of what it made before; null is no body.
+/// Has `implementation`, under the names that it has, make these bodies instead of what it made before; null is no body. Its port
+/// elements with `interfaces` are called by name. `services` are the names that the model gives to those that policies require;
+/// where policies of the implementation have names for them, these count.
 inline void host_typed(Implementation& implementation, const std::function<std::shared_ptr<TypedBody>()>& create,
                        const Implementation::Names& services, TypedIntercept provided, TypedIntercept required) {
-    const auto names = std::make_shared<const TypedNames>(
-        TypedNames{implementation.provided, implementation.required, implementation.attributes, services});
-    implementation.create = [create, names]() -> std::shared_ptr<ComponentObject> {
+    detail::TypedShape made = {{implementation.provided, implementation.required, implementation.attributes, {}}, {}};
+    for (const Policy& policy : implementation.policies.applied) {
+        if (!policy.element.empty()) {
+            made.names.services.push_back(policy.element);
+        }
+    }
+    if (made.names.services.empty()) {
+        made.names.services = services;
+    }
+    for (const std::string& port : implementation.provided) {
+        made.by_name.push_back(implementation.interfaces.count(port) != 0);
+    }
+    const auto shape = std::make_shared<const detail::TypedShape>(std::move(made));
+    implementation.create = [create, shape]() -> std::shared_ptr<ComponentObject> {
         const std::shared_ptr<TypedBody> body = create();
-        return body ? detail::maker_for(*body)(body, names) : nullptr;
+        return body ? detail::maker_for(*body)(body, shape) : nullptr;
     };
     implementation.set_attribute = [](ComponentObject& body, const std::string& name, const std::string& value) {
         dynamic_cast<detail::TypedObject&>(body).set_attribute(name, value);
@@ -180,13 +219,17 @@ inline void host_typed(Implementation& implementation, const std::function<std::
     implementation.policies.get_policy_element = [](ComponentObject& body, const std::string&, const std::string&) {
         return dynamic_cast<detail::TypedObject&>(body).body->execution();
     };
-    implementation.policies.get_policy_port = nullptr;  // no typed port element can be called by name
-    implementation.policies.intercept = [names, provided, required](
+    implementation.policies.get_policy_port = [](ComponentObject& body, const std::string& policy,
+                                                 const std::string& element) {
+        return dynamic_cast<detail::TypedObject&>(body).body->policy_port(policy, element);
+    };
+    implementation.policies.intercept = [shape, provided, required](
                                             const std::string& port, const std::shared_ptr<PortElementObject>& target,
                                             const std::shared_ptr<Interceptor>& interceptor) {
-        const std::size_t n = detail::index_of(port, names->provided);
-        return n < names->provided.size() ? provided(n, target, interceptor)
-                                          : required(detail::index_of(port, names->required), target, interceptor);
+        const TypedNames& names = shape->names;
+        const std::size_t n = detail::index_of(port, names.provided);
+        return n < names.provided.size() ? provided(n, target, interceptor)
+                                         : required(detail::index_of(port, names.required), target, interceptor);
     };
 }
 
