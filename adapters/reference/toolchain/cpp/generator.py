@@ -31,6 +31,7 @@ from ucm_cts.adapters.reference.toolchain.cpp.types import (
     constant_definition,
     exception_definition,
     find,
+    names_in_value,
     type_definition,
 )
 from ucm_cts.adapters.reference.toolchain.reaching import Reaching
@@ -177,8 +178,8 @@ class Generation:
         return (find(reference, scope, *DATA) for reference in dict.fromkeys(named) if reference)
 
     def _constants_in(self, value: str, declared: Declared) -> Iterator[str]:
-        for word in value.split():
-            found = declared.scope.find(word, contracts.Constant)
+        for name in names_in_value(value):
+            found = declared.scope.find(name, contracts.Constant)
             if found is not None:
                 yield found.path
 

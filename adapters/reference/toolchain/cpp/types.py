@@ -312,6 +312,13 @@ _TOKEN = re.compile(
     r"""|(?:::)?[A-Za-z_]\w*(?:(?:::|-)[A-Za-z_]\w*)*|<<|>>|\S"""
 )
 _NAME = re.compile(r"(?:::)?[A-Za-z_]")
+_WIDE_INTEGERS = ("LONGLONG", "ULONGLONG")
+"""Kinds whose values may be wider than what C++ computes with where nothing says otherwise."""
+
+
+def names_in_value(text: str) -> list[str]:
+    """What may be names of constants in ``text``, a value in the syntax of IDL."""
+    return [token for token in _TOKEN.findall(text) if _NAME.match(token) and token[-1] not in "\"'"]
 
 
 def constant_value(text: str, type_: Declared, scope: Scope) -> str:
@@ -344,6 +351,8 @@ def _is_wide(type_: Declared) -> bool:
 
 
 def _token(token: str, wide: bool, type_: Declared, scope: Scope) -> str:
+    if token[0].isdigit() and isinstance(type_.element, contracts.PrimitiveInteger):
+        return f"{INTEGERS[type_.element.kind]}({token})" if type_.element.kind in _WIDE_INTEGERS else token
     if token[0] in "\"'":
         return f"L{token}" if wide else token
     if token in ("TRUE", "FALSE"):
