@@ -10,7 +10,7 @@ import functools
 import random
 import re
 import string
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
 import msgspec
@@ -58,7 +58,10 @@ class Disguise:
     def scenario(self, scenario: Scenario) -> Scenario:
         """``scenario`` in disguise."""
         for interface in scenario.interfaces.values():
-            self._name_methods(sorted(interface.methods, key=len))
+            self._name_alike(interface.methods)
+        for declaration in scenario.components.values():
+            ports = (*declaration.provides, *declaration.requires)
+            self._name_alike(element for _, _, element in (port.partition(".") for port in ports) if element)
         return Scenario(
             {self._name(name): self._declaration(d) for name, d in scenario.components.items()},
             tuple(map(self._named, scenario.steps)),
@@ -99,13 +102,14 @@ class Disguise:
             self._remember(token, plain)
         return token
 
-    def _name_methods(self, methods: Sequence[str]) -> None:
-        """If the name of a method begins with the name of an earlier one, its drawn name does so, too."""
-        for number, method in enumerate(methods):
-            beginnings = [other for other in methods[:number] if method.startswith(other)]
-            if beginnings and method not in self._tokens and not s.STANDARD_METHODS & {method, beginnings[-1]}:
-                token = self._tokens[method] = self._naming.longer(self._name(beginnings[-1]))
-                self._remember(token, method)
+    def _name_alike(self, names: Iterable[str]) -> None:
+        """If a name begins with a shorter one, its drawn name does so, too. For methods of an interface, and elements of ports."""
+        known = sorted({*names} - s.STANDARD_METHODS - s.STANDARD_ELEMENTS, key=lambda name: (len(name), name))
+        for number, name in enumerate(known):
+            beginnings = [other for other in known[:number] if name.startswith(other)]
+            if beginnings and name not in self._tokens:
+                token = self._tokens[name] = self._naming.longer(self._name(beginnings[-1]))
+                self._remember(token, name)
 
     def _port(self, plain: str) -> str:
         spelled = self._ports.get(plain)
