@@ -108,6 +108,7 @@ MODULES = {
         "later_use",
         "moments",
         "numbers",
+        "outlasting",
         "refusals",
         "sharing",
         "situations",
