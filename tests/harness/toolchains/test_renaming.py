@@ -13,6 +13,7 @@ from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.acceptance import renamed
 from ucm_cts.harness.toolchains.corpus.selection import questions
+from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.renaming import Renaming, drawn_name, printed_names
 
 ASKED = [q for q in questions() if all(map(default_statement().meets, q.under))]
@@ -105,3 +106,11 @@ def test_text_that_is_no_xml_is_unchanged() -> None:
 def test_an_end_is_left_as_it_is_if_more_than_its_name_would_be_lost(end: str) -> None:
     text = f'<PortDelegation port="p">{end}</PortDelegation>'
     assert Renaming(None, Dialect(delegation_attributes=True)).apply(text) == text
+
+
+@pytest.mark.parametrize("profile", ["idl", "cpp11"])
+def test_words_of_languages_are_asked_as_they_are(profile: str) -> None:
+    models = dict(examination_for(profile, default_statement(), Renaming(seed=3)).models)
+    assert 'name="default"' in models["open_keywords"]
+    assert 'name="xor"' in models["open_keywords"]
+    assert 'name="records_t"' not in models["interfaces"]
