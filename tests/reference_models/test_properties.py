@@ -25,6 +25,9 @@ from ucm_cts.reference_models.properties.table import PROPERTIES
 SCENARIOS, MUTANTS = 6, 8
 PROPERTY_MODULES = Path(table.__file__).parent
 MODELS = PROPERTY_MODULES.parent
+SHOWING = 3
+"""So many purposes more concern what the mutant breaks."""
+
 REQUIREMENT = re.compile(r"R-[\d.]+-\d+")
 
 
@@ -37,6 +40,8 @@ def traces() -> list[tuple[Scenario, Trace]]:
         purposes = [p for p in load_purposes(profile) if p.clause.startswith(clauses)]
         for name in chosen.sample(sorted(mutants_of(clauses)), MUTANTS):
             sample = chosen.sample(purposes, min(SCENARIOS, len(purposes)))
+            broken = mutants_of(clauses)[name].requirements[0]
+            sample += [purpose for purpose in purposes if broken in purpose.requirements][:SHOWING]
             with Driver(locate(f"ucm_cts.adapters.mutants.python:{name}"), 1, Limits(seconds=1)) as driver:
                 answers = driver.run(purpose.scenarios[0] for purpose in sample)
                 found += [(a.disguised, a.trace) for a in answers if a.incident is None]
