@@ -52,7 +52,7 @@ std::vector<std::string> kinds_of(const Shaped& one) {
     return kinds;
 }
 
-/// Have all port elements that a scenario gives an interface to the interface of the models, and no others one of links?
+/// Does each port element have the interface of the models: the one that the scenario gives to it, or else that of all probes?
 bool fit(const lwucm::Implementation::Names& ports, const std::vector<lwucm::InterfacePtr>& modelled, const Shaped& one) {
     const lwucm::InterfacePtr exchange = lwucm::TypedCalls<Exchange>::description();
     for (std::size_t n = 0; n < ports.size(); ++n) {
