@@ -25,7 +25,7 @@ from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 pytestmark = pytest.mark.slow
 
 SHOWN_ELSEWHERE = (
-    *("names_clash_in_idl", "keywords_as_they_are", "refuses_keywords"),
+    *("names_clash_in_idl", "keywords_as_they_are", "less_common_keywords_as_they_are", "refuses_keywords"),
     *("annotated_models_become_nothing", "annotations_as_remarks"),
 )
 """What only models show that may be refused, or that are decorated."""
