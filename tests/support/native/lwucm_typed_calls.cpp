@@ -116,7 +116,7 @@ struct Town {
         Policies policies;
         policies.applied = of_library;
         Repository repository;
-        repository.add(typed_implementation<libraries::Abstract_Library_Impl>("Library", [this] { return library; }, policies,
+        repository.add(typed_implementation<libraries::Abstract_Library_Impl>("Library", [this] { return lender; }, policies,
                                                                               {"hall_desk"}));
         repository.add(typed_implementation<libraries::Abstract_Reader_Impl>("Reader", [this] { return reader; }, SERVICES,
                                                                              {"hall_desk"}));
@@ -130,7 +130,7 @@ struct Town {
     }
     ~Town() { runtime->destroy(); }
 
-    const std::shared_ptr<Library> library = std::make_shared<Library>();
+    const std::shared_ptr<Library> lender = std::make_shared<Library>();
     const std::shared_ptr<Reader> reader = std::make_shared<Reader>();
     std::shared_ptr<Runtime> runtime;
     std::shared_ptr<Link> link;
@@ -139,18 +139,18 @@ struct Town {
 
 void check_calls(const Town& town) {
     library_api::Abstract_desk& desk = *town.reader->desk;
-    CHECK(town.reader->desk != town.library->desk);
+    CHECK(town.reader->desk != town.lender->desk);
     book_t book = atlas();
     uint64_t number = 0;
     CHECK(desk.lend(book, "Ann", number));
-    CHECK(town.library->desk->received == atlas());
+    CHECK(town.lender->desk->received == atlas());
     CHECK(book.title() == L"lent");
     CHECK(book.kind() == library_api::novel);
     CHECK(book.marks() == atlas().marks());
     CHECK(number == UINT64_MAX);
     CHECK(!desk.lend(book, "Bob", number));
     desk.ring();
-    CHECK(town.library->desk->rings == 1);
+    CHECK(town.lender->desk->rings == 1);
     CHECK(throws<library_api::closed>([&] { desk.lend(book, "nobody", number); }));
     book = atlas();
     try {
