@@ -5,12 +5,16 @@ The type of its first parameter is the class whose method it changes (the contai
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Mapping
-from typing import Any, get_type_hints
+from concurrent.futures import Future
+from typing import Any, TypeVar, get_type_hints
 
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.registry import CONTAINER, Base, breaks, variant_of
 from ucm_cts.adapters.reference.python.framework import ContainerManager
+
+T = TypeVar("T")
 
 Own = Callable[..., Any]
 """What the class' own method does, bound to the object."""
@@ -70,3 +74,17 @@ def refuses_if(condition: Callable[..., bool], part: object, own: Own, *argument
     if condition(part, *arguments):
         raise UcmError("refused")
     return own(*arguments)
+
+
+def elsewhere(work: Callable[[], T]) -> Future[T]:
+    """Have ``work`` done by a thread of its own."""
+    outcome: Future[T] = Future()
+
+    def do() -> None:
+        try:
+            outcome.set_result(work())
+        except BaseException as error:  # noqa: BLE001 - the caller gets any exception
+            outcome.set_exception(error)
+
+    threading.Thread(target=do, daemon=True).start()
+    return outcome

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future
 from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import DeclaredException, FragmentObject, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, Policy
-from ucm_cts.adapters.mutants.python.methods import replaces
+from ucm_cts.adapters.mutants.python.methods import elsewhere, replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, breaks
 from ucm_cts.adapters.reference.python.connectors import OK, Link
 from ucm_cts.adapters.reference.python.members import Failures, Member
@@ -104,17 +103,8 @@ def removes_connections_of_siblings(self: Base, member: Member, failures: Failur
 
 def _at_most(seconds: float, work: Callable[[], T], otherwise: T) -> T:
     """What ``work`` gives, or ``otherwise`` if that takes longer."""
-    outcome = Future[T]()
-
-    def do() -> None:
-        try:
-            outcome.set_result(work())
-        except BaseException as error:  # noqa: BLE001 - the caller gets any exception
-            outcome.set_exception(error)
-
-    threading.Thread(target=do, daemon=True).start()
     with suppress(TimeoutError):
-        return outcome.result(seconds)
+        return elsewhere(work).result(seconds)
     return otherwise
 
 

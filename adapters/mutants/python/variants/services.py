@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import DeclaredException, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
-from ucm_cts.adapters.mutants.python.methods import alters, replaces
+from ucm_cts.adapters.mutants.python.methods import alters, elsewhere, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, variant_of
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference.python.execution import Executor
@@ -57,24 +56,10 @@ def queues_for_each_client(self: Link, member: Member, port: str) -> None:
     object.__setattr__(connections[last], "target", _ClientElement(self))
 
 
-def _elsewhere(work: Callable[[], T]) -> Future[T]:
-    """Have ``work`` done by a thread of its own."""
-    outcome: Future[T] = Future()
-
-    def do() -> None:
-        try:
-            outcome.set_result(work())
-        except BaseException as error:  # noqa: BLE001 - the caller gets any exception
-            outcome.set_exception(error)
-
-    threading.Thread(target=do, daemon=True).start()
-    return outcome
-
-
 @replaces("_request", clauses=_CLAUSES)
 def serves_each_call_on_a_new_thread(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """Each call of a service is served by a new thread."""
-    return _elsewhere(lambda: Link._request(self, method, arguments)).result()
+    return elsewhere(lambda: Link._request(self, method, arguments)).result()
 
 
 # servers
@@ -152,7 +137,7 @@ class _Aborts(Link):
         aborted = self.aborted
         if not self.takers or not self.takers[0].entrance.is_open:
             raise UcmError("there is no server")
-        outcome = _elsewhere(lambda: super(_Aborts, self)._request(method, arguments))
+        outcome = elsewhere(lambda: super(_Aborts, self)._request(method, arguments))
         wait((outcome, aborted), return_when=FIRST_COMPLETED)
         return outcome.result() if outcome.done() else aborted.result()
 
@@ -187,7 +172,7 @@ class _AbortedElement(LinkElement):
         aborted = self.aborted
         if self.link.connector == SERVICE_CONNECTOR and not any(t.entrance.is_open for t in self.link.takers):
             raise UcmError("there is no server")
-        outcome = _elsewhere(lambda: super(_AbortedElement, self).call(method, arguments))
+        outcome = elsewhere(lambda: super(_AbortedElement, self).call(method, arguments))
         wait((outcome, aborted), return_when=FIRST_COMPLETED)
         return aborted.result() if aborted.done() else outcome.result()
 
