@@ -40,12 +40,6 @@ DECORATED = ("interfaces", "ports")
 AROUND = 3
 """Lines of a generated file shown before and after the one that is wrong."""
 
-
-def _names_of(model: str, renaming: Renaming) -> Renaming:
-    """``renaming`` for ``model``: names that are words of a target language would be none with other endings."""
-    return dataclasses.replace(renaming, seed=None) if model.startswith(OPEN) else renaming
-
-
 LONGEST_PIECE = 200
 """Characters shown of a piece of code."""
 
@@ -55,6 +49,11 @@ Compare = Callable[[Model, Mapping[str, str]], Comparison]
 
 IsCode = Callable[[str], bool]
 """Whether the file of this name is code, rather than a document or a description of what to build."""
+
+
+def _renaming_for(model: str, renaming: Renaming) -> Renaming:
+    """``renaming`` for ``model``: names that are words of a target language would be none with other endings."""
+    return dataclasses.replace(renaming, seed=None) if model.startswith(OPEN) else renaming
 
 
 class Generation:
@@ -88,7 +87,7 @@ class Generation:
         wanted = None if only is None else {*only, *(name.removeprefix(PREFIX) for name in only)}
         known = {**mapping_models(), **documentation_models()}
         chosen = {name: text for name, text in known.items() if wanted is None or name in wanted}
-        models = {name: _names_of(name, renaming).apply(text) for name, text in chosen.items()}
+        models = {name: _renaming_for(name, renaming).apply(text) for name, text in chosen.items()}
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         named = {name: text for name, text in models.items() if any(word in name.lower() for word in words)}
         self._texts = named or models

@@ -31,7 +31,7 @@ def models() -> bytes:
         together.extend(etree.parse(path).getroot())
     for policy in together.iterfind(".//ComponentTechnicalPolicy[@name='unprotected']"):
         for body in together.iterfind(".//AtomicComponentImplementation"):
-            if body.get("name") != "running_body":
+            if body.find("TechnicalPolicy[@name='self-executing']") is None:
                 module = body.getparent().get("name")
                 etree.SubElement(policy, "ManagedComponent", name=f"::{module}::{body.get('name')}")
                 etree.SubElement(body, "TechnicalPolicy", name="::parts::unprotected")

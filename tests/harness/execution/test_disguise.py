@@ -155,6 +155,18 @@ def test_names_of_methods_that_begin_like_others_still_do() -> None:
     assert not revealed["beta"].startswith(revealed["alpha"])
 
 
+def test_names_of_port_elements_that_begin_like_others_still_do() -> None:
+    (plain,) = (
+        case for p in load_purposes("container") for name, case in p.scenarios if name == "names-that-begin-alike"
+    )
+    disguise = Disguise(3, SPELLING)
+    revealed = {
+        disguise.reveal(port): port for d in disguise.scenario(plain).components.values() for port in d.provides
+    }
+    assert revealed.keys() == {"in.api", "in.apices"}
+    assert revealed["in.apices"].startswith(revealed["in.api"])
+
+
 @pytest.mark.parametrize("value", ["", "a", "two\nlines", " blanks ", "x" * 4096, "12"])
 def test_values_of_a_certain_look_keep_it(value: str) -> None:
     """What provokes by its length or its characters reaches the framework as it is; words do not."""

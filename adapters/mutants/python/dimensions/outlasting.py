@@ -164,6 +164,19 @@ def one_port_of_each_receiver(self: Link, method: str, arguments: Sequence[Datum
     return OK
 
 
+@replaces("_emit", "R-10.1.6.1-04", clauses=("10.1.6",), also=("R-10.1.6.1-10", "R-10.1.6.1-03"))
+def nothing_for_those_who_send(self: Link, method: str, arguments: Sequence[Datum]) -> str:
+    """A component that is an emitter and a receiver of a connection gets no messages."""
+    if self.connector != MESSAGE_CONNECTOR or self.broken:
+        return Link._emit(self, method, arguments)
+    for taker in self.takers:
+        member = taker.member
+        sends = any(self._is_behind(connection.target) for connection in member.container._connections_from(member))
+        if taker.entrance.is_open and not sends:
+            self._post(taker, method, self._copied(arguments))
+    return OK
+
+
 # traces
 
 

@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, parent_of
 from ucm_cts.adapters.mutants.toolchain.checking import complains_only_where, refusing
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, complaining_where, named
 from ucm_cts.adapters.reference.toolchain.program import Program
-from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
+from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import uses
 
 References = Callable[[Any], Iterator[str]]
 """What an element refers to, and what may therefore lead back to it."""
@@ -72,28 +72,12 @@ def roles_by_their_names(port: mi.ConnectorPort, connector: mi.ConnectorDefiniti
 
 
 @complains_only_where("has_at_most_one_policy", "R-9.4.3.1-05")
-def counts_definitions(implementation: mc.AtomicComponentImplementation, _: Any, scope: Scope) -> bool:
+def counts_definitions(implementation: mc.AtomicComponentImplementation, _: Any, root: Scope) -> bool:
     """Counts the definitions of the policies of an aspect, not the policies."""
-    found = [_policy(named.name, scope) for named in implementation.policies]
-    return len({one.technical_policy_definition for one in found if one is not None}) > 1
-
-
-def _policy(name: str, root: Scope) -> mc.ComponentTechnicalPolicy | None:
-    """The policy of that name in any module."""
-    waiting = [root]
-    while waiting:
-        scope = waiting.pop()
-        for declared in scope.members.get(name.rpartition(":")[2], ()):
-            if isinstance(declared.element, mc.ComponentTechnicalPolicy):
-                return declared.element
-        waiting += [inner for modules in scope.modules.values() for inner in modules]
-    return None
-
-
-@complains_only_where("values_are_of_parameters_of_the_definition", "R-9.5.4.2-08")
-def anything_for_policies_on_ports(_: Any, policy: mc.ComponentTechnicalPolicy, _scope: Scope) -> bool:
-    """Accepts any parameter in a policy on ports."""
-    return not isinstance(policy, mc.ComponentPortTechnicalPolicy)
+    of_aspects = [
+        alike for use in uses(root) if use.implementation is implementation for alike in use.of_aspects().values()
+    ]
+    return any(len({policy.element.technical_policy_definition for policy in alike}) > 1 for alike in of_aspects)  # type: ignore[attr-defined]
 
 
 @breaks("R-9.5.5.4-06", declares=("inherited-member-names=heir",))
@@ -106,28 +90,6 @@ def limits_of_own_roles(program: Program) -> Program:
         return pattern is None or any(f" role {role.name} of " in message for role in own)
 
     return complaining_where(program, "roles_are_not_played_too_often", holds)
-
-
-@complains_only_where("constants_are_values_of_their_types", "R-9.2.6.1-04")
-def numbers_are_truth_values(constant: c.Constant, _: Any, scope: Scope) -> bool:
-    """Accepts 0 and 1 for FALSE and TRUE."""
-    found = actual_type(constant.type, scope)
-    is_boolean = found is not None and isinstance(found.element, c.PrimitiveBoolean)
-    return not (is_boolean and constant.value in ("0", "1"))
-
-
-@breaks("R-9.5.5.4-07")
-@refusing
-def connections_have_ends(connection: mc.Connection, _: Scope) -> bool:
-    """Takes a connection without ends for an error."""
-    return not connection.ends
-
-
-@breaks("R-9.2.6.1-02", declares=("text-values=quoted",))
-@refusing
-def strings_are_one_literal(constant: c.Constant, _: Scope) -> bool:
-    """Does not know that strings which follow each other are one."""
-    return '" "' in constant.value
 
 
 @breaks("R-9.2.6.1-03", declares=("value-syntax=expressions",))

@@ -7,7 +7,8 @@ from typing import Any
 from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
-from ucm_cts.adapters.mutants.toolchain.checking import complains_only_where, refuses
+from ucm_cts.adapters.mutants.toolchain.checking import complains_only_where, refuses, refusing
+from ucm_cts.adapters.mutants.toolchain.registry import breaks
 from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import component_type, part_called, port_of
 
 Composite = mc.CompositeComponentImplementation
@@ -99,3 +100,10 @@ def ends_need_no_names(named: Any, _element: Any, _scope: Scope) -> bool:
 def port_policies_manage_nothing(policy: Any, _element: Any, _scope: Scope) -> bool:
     """Takes policies on ports that manage no component."""
     return not isinstance(policy, mc.ComponentPortTechnicalPolicy)
+
+
+@breaks("R-9.5.5.4-07")
+@refusing
+def connections_have_ends(connection: mc.Connection, _: Scope) -> bool:
+    """Takes a connection without ends for an error."""
+    return not connection.ends

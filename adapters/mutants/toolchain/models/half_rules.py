@@ -7,7 +7,11 @@ from typing import Any
 from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel import interactions as mi
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
-from ucm_cts.adapters.contract.metamodel.components import ComponentPortTechnicalPolicy, ComponentType
+from ucm_cts.adapters.contract.metamodel.components import (
+    ComponentPortTechnicalPolicy,
+    ComponentTechnicalPolicy,
+    ComponentType,
+)
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, parent_of
 from ucm_cts.adapters.mutants.toolchain.checking import complains_only_where
@@ -112,6 +116,12 @@ def binds_items_of_any_pattern(wrong: Any, _: mi.ConnectorDefinition, scope: Sco
 def only_the_first_port_handles_items(wrong: Any, connector: mi.ConnectorDefinition, _: Scope) -> bool:
     """Accepts a later port that does not handle the type of an item."""
     return wrong is connector.ports[0]
+
+
+@complains_only_where("values_are_of_parameters_of_the_definition", "R-9.5.4.2-08")
+def anything_for_policies_on_ports(_: Any, policy: ComponentTechnicalPolicy, _scope: Scope) -> bool:
+    """Accepts any parameter in a policy on ports."""
+    return not isinstance(policy, ComponentPortTechnicalPolicy)
 
 
 def _partial(name: str, says: str, requirement: str, rule: str, holds: Holds, *also: str) -> None:

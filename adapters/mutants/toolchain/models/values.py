@@ -5,10 +5,17 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Callable, Iterator
+from typing import Any
 
-from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES, Alias, Constant, PrimitiveFloat
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    INTEGER_RANGES,
+    Alias,
+    Constant,
+    PrimitiveBoolean,
+    PrimitiveFloat,
+)
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.mutants.toolchain.checking import deaf, lacks, refuses, without
+from ucm_cts.adapters.mutants.toolchain.checking import complains_only_where, deaf, lacks, refuses, refusing, without
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, named, replacing_rule
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
 from ucm_cts.adapters.reference.toolchain.program import Program
@@ -126,3 +133,18 @@ def strings_of_any_length(program: Program) -> Program:
                 raise
 
     return _fitting(program, fits)
+
+
+@complains_only_where("constants_are_values_of_their_types", "R-9.2.6.1-04")
+def numbers_are_truth_values(constant: Constant, _: Any, scope: Scope) -> bool:
+    """Accepts 0 and 1 for FALSE and TRUE."""
+    found = actual_type(constant.type, scope)
+    is_boolean = found is not None and isinstance(found.element, PrimitiveBoolean)
+    return not (is_boolean and constant.value in ("0", "1"))
+
+
+@breaks("R-9.2.6.1-02", declares=("text-values=quoted",))
+@refusing
+def strings_are_one_literal(constant: Constant, _: Scope) -> bool:
+    """Does not know that strings which follow each other are one."""
+    return '" "' in constant.value

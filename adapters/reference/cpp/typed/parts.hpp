@@ -44,56 +44,56 @@ class Requires : public Probe {
     void on_startup(ucm_cts::detail::Argument<Startup, 0> given) override { this->core.start(given); }
 };
 
+/// A probe with a second provided port element, which links call and which `Getter` gives.
+template <class Probe, class Getter>
+class CalledByLinks : public Probe {
+  public:
+    explicit CalledByLinks(const Shaped& from) : Probe(from), element(this->core.template called_by_links<Interface>(1)) {}
+
+  protected:
+    typedef Returned<Getter> Interface;
+
+    const std::shared_ptr<Interface> element;
+};
+
 /// A server of synchronous clients, with `ask.server_p`.
 template <class Probe>
-class ProvidesAnswer : public Probe {
-    typedef Returned<decltype(&Probe::Abstract::get_ask_server_p)> Interface;
+class ProvidesAnswer : public CalledByLinks<Probe, decltype(&Probe::Abstract::get_ask_server_p)> {
+    typedef CalledByLinks<Probe, decltype(&Probe::Abstract::get_ask_server_p)> Base;
 
   public:
-    explicit ProvidesAnswer(const Shaped& from) : Probe(from), element_(this->core.template called_by_links<Interface>(1)) {}
-    std::shared_ptr<Interface> get_ask_server_p() override { return element_; }
-
-  private:
-    const std::shared_ptr<Interface> element_;
+    using Base::Base;
+    std::shared_ptr<typename Base::Interface> get_ask_server_p() override { return this->element; }
 };
 
 /// A client that is called back, with `ask.client_resp_p`.
 template <class Probe>
-class ProvidesResponse : public Probe {
-    typedef Returned<decltype(&Probe::Abstract::get_ask_client_resp_p)> Interface;
+class ProvidesResponse : public CalledByLinks<Probe, decltype(&Probe::Abstract::get_ask_client_resp_p)> {
+    typedef CalledByLinks<Probe, decltype(&Probe::Abstract::get_ask_client_resp_p)> Base;
 
   public:
-    explicit ProvidesResponse(const Shaped& from) : Probe(from), element_(this->core.template called_by_links<Interface>(1)) {}
-    std::shared_ptr<Interface> get_ask_client_resp_p() override { return element_; }
-
-  private:
-    const std::shared_ptr<Interface> element_;
+    using Base::Base;
+    std::shared_ptr<typename Base::Interface> get_ask_client_resp_p() override { return this->element; }
 };
 
 /// A server that answers by a call, with `ask.server_req_p`.
 template <class Probe>
-class ProvidesRequest : public Probe {
-    typedef Returned<decltype(&Probe::Abstract::get_ask_server_req_p)> Interface;
+class ProvidesRequest : public CalledByLinks<Probe, decltype(&Probe::Abstract::get_ask_server_req_p)> {
+    typedef CalledByLinks<Probe, decltype(&Probe::Abstract::get_ask_server_req_p)> Base;
 
   public:
-    explicit ProvidesRequest(const Shaped& from) : Probe(from), element_(this->core.template called_by_links<Interface>(1)) {}
-    std::shared_ptr<Interface> get_ask_server_req_p() override { return element_; }
-
-  private:
-    const std::shared_ptr<Interface> element_;
+    using Base::Base;
+    std::shared_ptr<typename Base::Interface> get_ask_server_req_p() override { return this->element; }
 };
 
 /// A reader of shared data, with `get.notification_p`.
 template <class Probe>
-class ProvidesNotification : public Probe {
-    typedef Returned<decltype(&Probe::Abstract::get_get_notification_p)> Interface;
+class ProvidesNotification : public CalledByLinks<Probe, decltype(&Probe::Abstract::get_get_notification_p)> {
+    typedef CalledByLinks<Probe, decltype(&Probe::Abstract::get_get_notification_p)> Base;
 
   public:
-    explicit ProvidesNotification(const Shaped& from) : Probe(from), element_(this->core.template called_by_links<Interface>(1)) {}
-    std::shared_ptr<Interface> get_get_notification_p() override { return element_; }
-
-  private:
-    const std::shared_ptr<Interface> element_;
+    using Base::Base;
+    std::shared_ptr<typename Base::Interface> get_get_notification_p() override { return this->element; }
 };
 
 /// A probe with index timers, which it is called back by.
