@@ -22,6 +22,8 @@ class Finding(Value, frozen=True):
     ``step``: the scenario step they belong to, if any.
     ``expected_events``: what should have happened in their place.
     ``caused_by``: another requirement that was violated before about what this finding concerns, and that may be its cause.
+    ``late_by``: nanoseconds by which something came later than it may, also if what followed it came too soon for that; 0 if the
+    finding is about anything else.
     """
 
     requirement: str
@@ -33,3 +35,4 @@ class Finding(Value, frozen=True):
     step: int | None = None
     expected_events: tuple[Arrow, ...] = ()
     caused_by: str = ""
+    late_by: int = 0

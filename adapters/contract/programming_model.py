@@ -50,7 +50,8 @@ class PortElementObject(ABC):
         the order of declaration. Raises ``DeclaredException``.
 
         What stands between caller and body (connectors, proxies of protected components) offers it, too: it is what
-        generated code would be. Values are as ``data_types`` says; lists among them are the caller's own.
+        generated code would be. Values are as ``data_types`` says; lists among arguments and results are the caller's own,
+        and change after the call.
         """
         raise NotImplementedError(method)
 

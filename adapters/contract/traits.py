@@ -90,6 +90,11 @@ def _binding(step: type[Value]) -> tuple[tuple[str, Binds], ...]:
     return tuple((field, trait) for field, trait in fields(step) if isinstance(trait, Binds))
 
 
+@functools.cache
+def _lasting(step: type[Value]) -> tuple[tuple[str, Lasts], ...]:
+    return tuple((field, trait) for field, trait in fields(step) if isinstance(trait, Lasts))
+
+
 def uses(step: Value) -> tuple[tuple[str, Uses], ...]:
     """The variables that ``step`` reads, each with the trait of its field."""
     found: list[tuple[str, Uses]] = []
@@ -132,5 +137,8 @@ def named(step: Value, subject: Subject) -> tuple[str, ...]:
 
 def duration(step: Value) -> tuple[int, int]:
     """How many milliseconds ``step`` takes at least, and at most; waits are not counted."""
-    lasting = [(getattr(step, field), trait) for field, trait in fields(type(step)) if isinstance(trait, Lasts)]
+    found = _lasting(type(step))
+    if not found:
+        return 0, 0
+    lasting = [(getattr(step, field), trait) for field, trait in found]
     return sum(time * trait.at_least for time, trait in lasting), sum(time * trait.times for time, trait in lasting)

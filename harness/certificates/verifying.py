@@ -377,7 +377,7 @@ def _on_the_word(contents: Contents, claims: Claims, degree: Assured) -> Iterato
     if degree.assurance != "witnessed":
         yield "that the product ran at all: who forges every time and every event of a record carefully cannot be seen; a witnessed certificate is the answer"
         yield "that product and version are those named, that the files named are those that ran, and that no others took part"
-        processes = "how long calls took" if is_toolchain else "clock gaps, and what hosts' processes held"
+        processes = "how long calls took" if is_toolchain else "clock gaps, contention, and what hosts' processes held"
         yield f"isolation ({one_line(claims.isolation, 20)}), warnings, the machine, {processes}"
         yield "the dates"
         if not is_toolchain and contents.environment is not None:

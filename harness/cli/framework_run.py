@@ -6,6 +6,7 @@ import functools
 import hashlib
 import time
 from collections.abc import Collection, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn, Protocol
@@ -23,10 +24,12 @@ from ucm_cts.harness.cli.terminal import Interrupts, Output, ends_like_interrupt
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.campaign_state import CampaignState
 from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.execution.judging import Judge, SideJudge, may_judge_aside
 from ucm_cts.harness.execution.repeating import repeated, steady_search
 from ucm_cts.harness.exploring.in_runs import DRAWN_SCENARIOS, exploration_in, remember_in
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse, locate
+from ucm_cts.harness.hosting.pace import waits
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import asked_by, select
 from ucm_cts.harness.report.write import keep_report, report_folder
@@ -39,6 +42,9 @@ from ucm_cts.harness.statement.files import check_subject, stated_by
 
 KEPT_EVERY = 60
 """After so many seconds, what a run has measured is kept again."""
+
+MANY_SCENARIOS = 500
+"""A run of so many scenarios has some of them judged on another core."""
 
 
 @dataclass(frozen=True)
@@ -109,6 +115,8 @@ def certify_framework(wanted: FrameworkRun, keeper: Keeper | None = None) -> NoR
         interrupts.held(),  # nothing is lost between the places that permit interrupts
         report_folder(wanted.out, CHECKPOINTS) as folder,
     ):
+        if not wanted.virtual_time and _hosts_at_once(wanted, statement, keeper) > 1:
+            purposes = tuple(sorted(purposes, key=_lateness))
         if wanted.failed_first:
             failed = failed_in(wanted.out, console).requirements
             purposes = tuple(sorted(purposes, key=lambda purpose: not failed.intersection(purpose.requirements)))
@@ -189,8 +197,7 @@ class _Series:
 
     @property
     def _hosts_at_once(self) -> int:
-        """A run that is recorded has one, so that its answers can be taken in their order again."""
-        return 1 if self._plan.keeper is not None else self._wanted.jobs or self._plan.statement.hosts_at_once
+        return _hosts_at_once(self._wanted, self._plan.statement, self._plan.keeper)
 
     def _run_once(self) -> str:
         """Run the next one, if one is missing. Returns why the series is not to go on, empty if it is."""
@@ -199,7 +206,10 @@ class _Series:
         try:
             keeper = self._plan.keeper
             make = keeper.driver if keeper is not None else functools.partial(Driver, jobs=self._hosts_at_once)
-            with make(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver:
+            with (
+                self._judge() as judge,
+                make(self._plan.endpoint, self._seed + number - 1, self._wanted.limits) as driver,
+            ):
                 with self._interrupts.permitted():
                     identity = driver.identity
                 known = [*self.reports, *([self._state.report] if self._state is not None else [])]
@@ -214,7 +224,7 @@ class _Series:
                     self._is_greeted = True
                     if keeper is not None:
                         keeper.begin(driver, self._plan.statement, self._plan.known)
-                return self._measure(driver, f"{which}: " if of > 1 else "") if number <= of else ""
+                return self._measure(driver, judge, f"{which}: " if of > 1 else "") if number <= of else ""
         except _Misfit:
             raise
         except KeyboardInterrupt:
@@ -226,8 +236,14 @@ class _Series:
                 raise
             return f"{which} could not begin: {problem}"
 
-    def _measure(self, driver: Driver, which: str) -> str:
-        campaign = Campaign(driver, self._wanted.profile, self._plan.known, self._plan.statement)
+    def _judge(self) -> AbstractContextManager[Judge]:
+        """The judge of a run. One that is recorded is judged answer by answer, as it will be judged again."""
+        scenarios = sum(len(purpose.scenarios) for purpose in self._plan.purposes)
+        aside = self._plan.keeper is None and scenarios >= MANY_SCENARIOS and may_judge_aside()
+        return SideJudge(self._plan.statement.ics) if aside else nullcontext(Judge(self._plan.statement.ics))
+
+    def _measure(self, driver: Driver, judge: Judge, which: str) -> str:
+        campaign = Campaign(driver, self._wanted.profile, self._plan.known, self._plan.statement, judge)
         done: Collection[str] = ()
         if self._state is not None:
             campaign.restore(self._state)
@@ -287,6 +303,16 @@ class _Series:
 
 class _Misfit(WrongUse):
     """What was resumed is not of this product."""
+
+
+def _hosts_at_once(wanted: FrameworkRun, statement: Statement, keeper: Keeper | None) -> int:
+    """A run that is recorded has one, so that its answers can be taken in their order again."""
+    return 1 if keeper is not None else wanted.jobs or statement.hosts_at_once
+
+
+def _lateness(purpose: TestPurpose) -> tuple[bool, bool]:
+    """What may wait comes late, because further hosts wait for it meanwhile; but all requirements come before their dimensions."""
+    return purpose.of_dimensions, any(waits(scenario) > 0 for _, scenario in purpose.scenarios)
 
 
 def _is_of(identity: Welcome, report: FrameworkReport) -> bool:

@@ -6,9 +6,9 @@ from collections.abc import Callable, Collection, Sequence
 
 from rich.progress import TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from ucm_cts.adapters.contract.traits import duration
 from ucm_cts.harness.cli.terminal import Output, progress_of
 from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.hosting.pace import lasts
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.foreign import one_line
 
@@ -52,6 +52,7 @@ def carry_out(
             between()
         if draw is not None:
             progress.update(task, description=f"{which}drawing scenarios")
+            campaign.begin_to_confirm()
             failing += draw()
         progress.update(task, description=f"{which}confirming failures")
         campaign.confirm()
@@ -63,5 +64,5 @@ def carry_out(
 
 def _effort(purpose: TestPurpose, hosts: int) -> int:
     """About how many milliseconds ``purpose`` takes; only the proportions count."""
-    waiting = sum(duration(step)[0] for _, scenario in purpose.scenarios for step in scenario.steps)
+    waiting = sum(lasts(scenario) for _, scenario in purpose.scenarios)
     return len(purpose.scenarios) * _MILLISECONDS_A_SCENARIO + (waiting // hosts if hosts else 0)

@@ -144,7 +144,7 @@ virtual_time_option = click.option(
 jobs_option = click.option(
     "--jobs",
     type=click.IntRange(min=1),
-    help="How many hosts there may be at once: scenarios that wait do so side by side. [default: hosts-at-once of the statement]",
+    help="How many hosts there may be at once: scenarios that wait do so side by side, and those of a slow product. [default: hosts-at-once of the statement]",
 )
 no_sandbox_option = click.option(
     "--no-sandbox", is_flag=True, help="Run the product without a sandbox; a report says so."

@@ -12,7 +12,7 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario, Step
-from ucm_cts.harness.hosting.hosts import waits
+from ucm_cts.harness.hosting.pace import waits
 
 PATIENCE = 400
 """Milliseconds after which such a call is left waiting, if nothing else in its scenario waits. A call that the text does not

@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime
 import math
 import time
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -13,8 +14,15 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, requirements_of
 from ucm_cts.harness.execution import leftovers
 from ucm_cts.harness.execution.campaign_state import CampaignState
-from ucm_cts.harness.execution.confirmation import OTHERWISE, Confirmation, Unconfirmed, timed_requirements
+from ucm_cts.harness.execution.confirmation import (
+    OF_THE_MACHINE,
+    OTHERWISE,
+    Confirmation,
+    Unconfirmed,
+    timed_requirements,
+)
 from ucm_cts.harness.execution.driving import Answer, Driving
+from ucm_cts.harness.execution.judging import Judge
 from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.provocations.coverage import provocations
@@ -34,7 +42,6 @@ from ucm_cts.harness.results.values import (
 )
 from ucm_cts.harness.statement.checks import check_statement
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Monitor
 from ucm_cts.reference_models.verdicts import Verdicts
 
 SECONDS_FOR_CONFIRMATION = 60
@@ -45,6 +52,9 @@ SEEN_OFTEN = 10
 
 NOT_CONFIRMED = "failures that were not run again"
 """The measure of how many failures were not run again because the time was used up."""
+
+BUSY = "the machine was busy, or stood still: lateness that was seen once, and not when the scenario was run four times more, was not counted"
+"""The warning of a report that measures ``OF_THE_MACHINE``."""
 
 
 @dataclass(frozen=True)
@@ -65,17 +75,20 @@ class Campaign:
         profile: str,
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
+        judge: Judge | None = None,
     ) -> None:
+        """``judge`` is one by the ``statement``."""
         self._driver = driver
         self.profile = profile
         self.known = known_failures
         self.statement = statement or default_statement()
         self.checked: list[TestPurpose] = []
-        self._monitor = Monitor(load_life_cycle(), self.statement.ics)
+        self._judge = judge or Judge(self.statement.ics)
+        self._monitor = self._judge.monitor
         self._requirements = list(requirements_of(profile))
         self._tally = Tally()
         check_statement(self.statement, profile, self._requirements, self._tally)
-        self._confirmation = Confirmation(driver, self._monitor, driver.gaps)
+        self._confirmation = Confirmation(driver, self._monitor, driver.gaps, self._tally.measures)
         self._shortening = Shortening(driver, self._monitor, self._confirmation, self._tally)
         self._payloads = Payloads(driver.seed)
         self._timed: dict[str, tuple[str, Scenario]] = {}
@@ -95,24 +108,28 @@ class Campaign:
         Those that were done in a state that was restored are left out. ``watch`` gets each answer with a trace, and the
         verdicts on it.
         """
-        queue: list[TestPurpose] = []
+        queue: deque[TestPurpose] = deque()
         before = frozenset(self._done)
+
+        depends = not isinstance(purposes, Sequence)  # what is drawn next may depend on the verdicts before
+        begun = {} if depends else self._begun([purpose for purpose in purposes if purpose.id not in before])
 
         def cases() -> Iterator[tuple[str, Scenario]]:
             for purpose in purposes:
                 if purpose.id not in before:
                     queue.append(purpose)
-                    for name, scenario in self._scenarios_of(purpose):
-                        yield name, self._payloads.deal(scenario)
+                    for place, (name, scenario) in enumerate(self._scenarios_of(purpose)):
+                        known = begun.pop((purpose.id, place), None)
+                        yield known or (name, self._payloads.deal(scenario))
 
         answers = self._driver.run(cases())
         failures: list[tuple[Finding | None, Execution]] = []
         done = 0
         is_lost = False
         since = time.monotonic()
-        for answer in answers:
+        for answer, verdicts in self._judge.judged(answers, at_once=depends):
             purpose = queue[0]
-            failures.extend(self._take(answer, purpose, watch))
+            failures.extend(self._take(answer, verdicts, purpose, watch))
             is_lost |= answer.incident is not None and answer.incident.kind not in FRAMEWORK_INCIDENTS
             done += 1
             if done == len(purpose.scenarios):
@@ -125,17 +142,34 @@ class Campaign:
                 self.checked.append(purpose)
                 if not is_lost:
                     self._done.append(purpose.id)
-                yield Checked(queue.pop(0), done, tuple(failures))
+                yield Checked(queue.popleft(), done, tuple(failures))
                 failures, done, is_lost = [], 0, False
+
+    def _begun(self, purposes: Iterable[TestPurpose]) -> dict[tuple[str, int], tuple[str, Scenario]]:
+        """The named scenarios of ``purposes`` that further hosts begin with, by the ids of these and their places in them."""
+        if not self._driver.has_side_hosts:
+            return {}
+        begun = {
+            (purpose.id, place): (name, self._payloads.deal(scenario))
+            for purpose in purposes
+            for place, (name, scenario) in enumerate(self._scenarios_of(purpose))
+            if self._driver.may_begin(scenario)
+        }
+        self._driver.begin(list(begun.values()))
+        return begun
 
     def _scenarios_of(self, purpose: TestPurpose) -> tuple[tuple[str, Scenario], ...]:
         """Its scenarios; where values are drawn, within what the vendor says of them."""
         return purpose.draw(self._driver.seed, self.statement.ics.readings) if purpose.draw else purpose.scenarios
 
     def _take(
-        self, answer: Answer, purpose: TestPurpose, watch: Callable[[Answer, Verdicts], None] | None
+        self,
+        answer: Answer,
+        verdicts: Verdicts | None,
+        purpose: TestPurpose,
+        watch: Callable[[Answer, Verdicts], None] | None,
     ) -> Iterator[tuple[Finding | None, Execution]]:
-        if answer.incident is not None:
+        if verdicts is None:
             execution = self._driver.revealed(answer)
             judged = list(self._judge_hang(answer, execution)) if answer.is_whole else []
             finding = finding_of_incident(execution)
@@ -145,7 +179,6 @@ class Campaign:
             yield finding, execution
             yield from judged
             return
-        verdicts = self._monitor.judge(answer.disguised, answer.trace)
         self._tally.provoked.update(p.name for p in provocations(answer.disguised, answer.trace))
         if watch is not None:
             watch(answer, verdicts)
@@ -226,9 +259,7 @@ class Campaign:
                 self._mark_unstable(execution, [unconfirmed])
             else:
                 confirmed.add(requirement)
-        failed = {requirement for requirement, _, _ in self._tally.failures}
-        kept = [case for requirement, case in self._timed.items() if passes and requirement not in failed]
-        again = {name: scenario for name, scenario in kept}
+        again = self._passes_to_confirm() if passes else {}
         self._driver.look_ahead(again.items(), OTHERWISE)
         for name, scenario in again.items():
             if allowance.is_used_up():
@@ -240,6 +271,16 @@ class Campaign:
                     self._tally.add_failure(self._driver.reveal(finding), TraceEvidence(execution))
                 self._mark_unstable(execution, not_confirmed)
         self._spent["confirmation"] = self._spent.get("confirmation", 0.0) + time.monotonic() - began
+
+    def begin_to_confirm(self) -> None:
+        """Further hosts may begin to run again what ``confirm`` will have run again, as far as that is known."""
+        self._driver.look_ahead(self._passes_to_confirm().items(), OTHERWISE)
+
+    def _passes_to_confirm(self) -> dict[str, Scenario]:
+        """One scenario of each requirement that was kept and depends on time, by its name."""
+        failed = {requirement for requirement, _, _ in self._tally.failures}
+        kept = [case for requirement, case in self._timed.items() if requirement not in failed]
+        return dict(kept)
 
     def _mark_unstable(self, execution: Execution, unconfirmed: Iterable[Unconfirmed]) -> None:
         for one in unconfirmed:
@@ -294,6 +335,7 @@ class Campaign:
         results = self._tally.results(self._requirements, self.known)
         incidents = self._tally.incidents
         identity = self._driver.identity
+        busy = (BUSY,) if self._tally.measures[OF_THE_MACHINE] else ()
         return FrameworkReport(
             product=identity.product,
             version=identity.version,
@@ -304,7 +346,7 @@ class Campaign:
             incidents=incidents,
             adapter=self._driver.adapter,
             adapter_file=self._driver.adapter_file,
-            warnings=tuple(dict.fromkeys((*self._warned, *self._driver.warnings))),
+            warnings=tuple(dict.fromkeys((*self._warned, *self._driver.warnings, *busy))),
             suite_version=ucm_cts.__version__,
             seed=self._driver.seed,
             started=self._started,

@@ -5,6 +5,9 @@ A failure, or a pass that depends on time, that another run does not show again 
 A finding of a timed property is confirmed if the same scenario shows it again with more patience while the machine did not
 stand still. Any other finding is confirmed if one of a few further runs, in other circumstances, shows it again.
 A requirement that depends on time and was kept is run once more, too.
+
+Lateness that was seen while the machine stood still or had too few processors, and not in several further runs, is the machine's
+and does not count. What came too early, or never, is not: a busy machine does not make a timer hurry.
 """
 
 from __future__ import annotations
@@ -34,6 +37,20 @@ LATER = Circumstances(after=LONGEST_HISTORY)
 FURTHER = (OTHERWISE, PATIENT, Circumstances(), LATER)
 """The further runs of a failure that does not depend on time; the first run that shows it again ends them."""
 
+FURTHER_OF_LATE = 3
+"""So many runs, after the one with more patience, must not show lateness again before it counts as the machine's."""
+
+TROUBLE = 100
+"""Milliseconds. For so long at least a machine stood still, or threads waited for a processor, where lateness is the machine's."""
+
+_MILLISECOND = 1_000_000
+
+OF_THE_MACHINE = "late once, on a busy machine: not counted"
+"""The measure of how often lateness was the machine's."""
+
+MOST_LOOKS = 3
+"""A second look during which the machine stood still is taken again; so many looks at most."""
+
 MOST_ATTEMPTS = 3
 """After so many runs that did not confirm a cause, no further run is made for it."""
 
@@ -48,6 +65,11 @@ def is_timed(finding: Finding) -> bool:
     """Whether ``finding`` depends on how long something took."""
     known = PROPERTIES.get(finding.rule)
     return known is not None and known.timed
+
+
+def is_late(finding: Finding) -> bool:
+    """Whether ``finding`` tells that something came, and later than it may, or too soon after what came later than it may."""
+    return is_timed(finding) and finding.late_by > 0
 
 
 @dataclass(frozen=True)
@@ -65,23 +87,35 @@ class Unconfirmed:
 
 
 class Confirmation:
-    """Confirms the findings of one run. ``gaps`` knows when the machine stood still."""
+    """Confirms the findings of one run. ``gaps`` knows when the machine stood still or had too few processors.
 
-    def __init__(self, driver: Driving, monitor: Monitor, gaps: Gaps) -> None:
+    ``measures``: of the run's effort; gets ``OF_THE_MACHINE``.
+    """
+
+    def __init__(self, driver: Driving, monitor: Monitor, gaps: Gaps, measures: Counter[str]) -> None:
         self._driver = driver
         self._monitor = monitor
         self._gaps = gaps
         self._confirmed: set[Cause] = set()
         self._attempts: Counter[Cause] = Counter()
+        self._measures = measures
 
     def separate(self, answer: Answer, findings: Sequence[Finding]) -> tuple[list[Finding], list[Unconfirmed]]:
-        """The findings of ``answer`` that give a verdict, and those that are unconfirmed. Runs timed ones again."""
+        """The findings of ``answer`` that give a verdict, and those that are unconfirmed. Runs timed ones again.
+
+        Lateness that was the machine's is among neither.
+        """
         open_causes = {cause_of(f) for f in findings if is_timed(f)} - self._confirmed
         if not open_causes:
             return list(findings), []
-        reason, steady = self._confirm_timed(answer, open_causes)
+        gap = self._gaps.longest(answer.trace)
+        reason, steady = self._confirm_timed(answer, open_causes, gap)
         confirmed = [f for f in findings if cause_of(f) not in open_causes or cause_of(f) in self._confirmed]
-        return confirmed, [Unconfirmed(f, reason, steady) for f in findings if f not in confirmed]
+        open_findings = [f for f in findings if f not in confirmed]
+        if steady is not None and open_findings and self._is_of_the_machine(answer, gap, open_findings, steady):
+            self._measures[OF_THE_MACHINE] += 1
+            return confirmed, []
+        return confirmed, [Unconfirmed(f, reason, steady) for f in open_findings]
 
     def outside_gaps(self, answer: Answer, findings: Sequence[Finding]) -> list[Finding]:
         """``findings`` without those that a clock gap of the machine may have caused. Runs nothing."""
@@ -124,21 +158,57 @@ class Confirmation:
     def _findings_outside_gaps(self, answer: Answer) -> list[Finding]:
         return self.outside_gaps(answer, self._findings(answer))
 
-    def _confirm_timed(self, answer: Answer, causes: set[Cause]) -> tuple[str, Answer | None]:
-        """Runs ``answer``'s scenario with more patience. Returns why the rest of ``causes`` is unconfirmed, and a run without it."""
-        gap = self._gaps.longest(answer.trace)
+    def _confirm_timed(self, answer: Answer, causes: set[Cause], gap: int) -> tuple[str, Answer | None]:
+        """Runs ``answer``'s scenario with more patience. Returns why the rest of ``causes`` is unconfirmed, and a run without it.
+
+        ``gap``: milliseconds that the machine stood still while ``answer`` came about.
+        """
         if all(self._attempts[cause] >= MOST_ATTEMPTS for cause in causes):
             seldom = "unstable: seen now and then, and never again when the same scenario was run once more"
             return _gap_reason(gap) or seldom, None
-        second = self._driver.again(answer.name, answer.scenario, PATIENT)
-        second_gap = self._gaps.longest(second.trace)
+        second, second_gap = self._again(answer, PATIENT)
         if not second_gap:
-            self._confirmed |= causes & {cause_of(f) for f in self._findings(second)}
+            self._confirmed |= causes & self._causes_in(second)
         self._attempts.update(causes - self._confirmed)
         if not second.trace:
             return _gap_reason(gap) or "unstable: seen once, and the same scenario could not be run again", None
         again = f"not when the same scenario was run again with {PATIENT.patience} times the patience"
         return _gap_reason(max(gap, second_gap)) or f"unstable: seen once, and {again}", second
+
+    def _is_of_the_machine(self, answer: Answer, gap: int, findings: Sequence[Finding], steady: Answer) -> bool:
+        """Whether ``findings`` of ``answer`` tell of nothing but lateness for which a busy machine had time enough.
+
+        ``steady``, the run with more patience, keeps their requirements, and several further runs do not show them either.
+        """
+        causes = {cause_of(finding) for finding in findings}
+        if not all(map(is_late, findings)) or any(self._attempts[cause] > MOST_ATTEMPTS for cause in causes):
+            return False
+        if self._driver.isolation == "remote":  # another machine
+            return False
+        verdicts = self._monitor.judge(steady.disguised, steady.trace)
+        kept = {finding.requirement for finding in findings} <= verdicts.exercises.keys()
+        if not kept or causes & {cause_of(finding) for finding in verdicts.findings}:
+            return False
+        needed = max(TROUBLE, *(finding.late_by // _MILLISECOND for finding in findings))
+        if gap < needed and self._gaps.contended(answer.trace) < needed:
+            return False
+        for _ in range(FURTHER_OF_LATE):
+            again, _ = self._again(answer, Circumstances())
+            if not again.trace or causes & self._causes_in(again):
+                return False
+        return True
+
+    def _again(self, answer: Answer, circumstances: Circumstances) -> tuple[Answer, int]:
+        """A further run of ``answer``'s scenario, and the milliseconds for which the machine stood still meanwhile: if possible none."""
+        for _ in range(MOST_LOOKS):
+            again = self._driver.again(answer.name, answer.scenario, circumstances)
+            gap = self._gaps.longest(again.trace)
+            if not gap or not again.trace:
+                break
+        return again, gap
+
+    def _causes_in(self, answer: Answer) -> set[Cause]:
+        return {cause_of(finding) for finding in self._findings(answer)}
 
     def _findings(self, answer: Answer) -> list[Finding]:
         return self._monitor.judge(answer.disguised, answer.trace).findings if answer.trace else []

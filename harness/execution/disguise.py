@@ -157,7 +157,7 @@ class Disguise:
 
     def _configured(self, plain: str) -> str:
         """Only words are disguised: some frameworks parse values of types, and other texts are there for what they look like."""
-        return self._name(plain) if _WORD.fullmatch(plain) and read_spelled(plain) is None else plain
+        return self._name(plain) if _is_word(plain) else plain
 
     def _policy(self, policy: Policy) -> Policy:
         """Definitions keep their standard names."""
@@ -219,6 +219,11 @@ _IN_DISGUISE: Mapping[Subject, Callable[[Disguise, Any], str | int | dict[str, s
     "attribute": Disguise._attributes,
 }
 """How each kind of subject is disguised. Gates and workers are not."""
+
+
+@functools.lru_cache(1000)
+def _is_word(text: str) -> bool:
+    return bool(_WORD.fullmatch(text)) and read_spelled(text) is None
 
 
 @functools.cache

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections import Counter, deque
-from collections.abc import Generator, Iterable, Iterator
+from collections import deque
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass, replace
@@ -14,8 +14,8 @@ from typing import Self
 import msgspec
 
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
-from ucm_cts.adapters.contract.scenario import Scenario, Stress
-from ucm_cts.adapters.contract.trace import Trace
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.execution.aside import Aside
 from ucm_cts.harness.execution.calls_apart import with_calls_apart
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.driving import (
@@ -30,9 +30,8 @@ from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.execution.second_looks import SecondLooks
 from ucm_cts.harness.hosting.host_watch import Usage
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
-from ucm_cts.harness.hosting.hosts import Hosts, Limits, waits
+from ucm_cts.harness.hosting.hosts import Hosts, Limits
 from ucm_cts.harness.hosting.locate import Endpoint, file_named, namesakes
-from ucm_cts.harness.hosting.side_hosts import SideHosts
 from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.tally import Cause
 from ucm_cts.harness.results.unanswered_calls import is_left_open
@@ -42,9 +41,6 @@ __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 
 MOST_UNTRIED = 32
 """How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
-
-MOST_AHEAD = 8
-"""How many scenarios each side host is given before answers are awaited."""
 
 _BETWEEN_COUNTS = 0.02
 _SHOWN = 5
@@ -57,7 +53,8 @@ class Driver(Disguising):
     """Runs scenarios on the implementation behind ``endpoint``; names and payloads are drawn from ``seed``.
 
     Use it in a ``with`` statement: from then until its end it has hosts, and ``gaps`` notes when the machine stood still.
-    ``jobs``: how many hosts there may be at once; all but one take scenarios that wait, until one of these meets an incident.
+    ``jobs``: how many hosts there may be at once; all but one take scenarios that wait, and of a slow product those that do not,
+    unless they meet many incidents.
     """
 
     def __init__(self, endpoint: Endpoint, seed: int, limits: Limits | None = None, jobs: int = 1) -> None:
@@ -71,11 +68,8 @@ class Driver(Disguising):
         self._incident_time = IncidentTime(self._hosts.limits.incident_seconds)
         self._is_near = endpoint.kind in ("python", "executable") and not endpoint.virtual_time
         self._clocks: dict[int, HostClock] = {}
-        may_be_several = endpoint.kind in ("python", "executable") and not endpoint.in_process
-        # in virtual time waits take none, so that further hosts would gain nothing
-        self._side_hosts = jobs - 1 if may_be_several and not endpoint.virtual_time else 0
-        self._side: SideHosts | None = None
-        self._left_behind: Counter[str] = Counter()
+        self._aside = Aside(endpoint, self._hosts, jobs - 1)
+        self._begun: dict[int, _Case] = {}  # by the identity of the scenario, which names need not have
         self._left_waiting = 0
         self._calls_apart = False
 
@@ -111,9 +105,7 @@ class Driver(Disguising):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the vendor should know of the adapter, a sentence each."""
-        left = self._hosts.left_behind + self._left_behind
-        if self._side is not None:
-            left += self._side.left_behind
+        left = self._hosts.left_behind + self._aside.left_behind
         others = tuple(namesakes(self._endpoint, self.adapter_file))
         shadowed = f"the adapter is {self.adapter_file}; another of its name is {', '.join(others)}"
         behind = f"hosts left {left.total()} processes behind, which were ended: {', '.join(sorted(left)[:_SHOWN])}"
@@ -146,15 +138,19 @@ class Driver(Disguising):
         def runs() -> Iterator[Run]:
             nonlocal more
             left_out = 0
-            while left_out < MOST_UNTRIED and _number_ahead(waiting) < max(MOST_AHEAD * self._side_hosts, 1):
+            while left_out < MOST_UNTRIED and sum(case.ahead is not None for case in waiting) < self._aside.most_ahead:
                 case = returned.popleft() if returned else self._next(source)
                 if case is None:
                     more = False
                     return
+                begun = case.ahead
                 if self._calls_apart and case.plain is None:
                     case = self._apart(case)
-                untried = None if insist else self._incident_time.not_tried(case.scenario)
-                reply = case.ahead or (self._ahead(case.run) if untried is None else None)
+                is_tried = insist or (case.ahead is not None and case.ahead.done() and not case.ahead.cancelled())
+                untried = None if is_tried else self._incident_time.not_tried(case.scenario)
+                if begun is not None and (untried is not None or case.ahead is None):
+                    begun.cancel()
+                reply = (case.ahead or self._ahead(case)) if untried is None else None
                 waiting.append(replace(case, untried=untried, ahead=reply))
                 left_out = left_out + 1 if untried is not None else 0
                 if untried is None and reply is None:
@@ -168,8 +164,8 @@ class Driver(Disguising):
                     yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
                     continue
                 answer = self._answered_ahead(case, insist)
-                if answer is None or answer.incident is not None:  # from here on there is one host again
-                    self._end_side_hosts()
+                if answer is None or (answer.incident is not None and self._aside.has_too_many_incidents()):
+                    self._end_side_hosts()  # from here on there is one host again
                 if answer is None:
                     waiting.appendleft(case)
                     return
@@ -198,7 +194,7 @@ class Driver(Disguising):
                             break
                         began = time.monotonic()
                 yield from elsewhere()
-                left = [case if self._side is not None else replace(case, ahead=None) for case in waiting]
+                left = [case if self._aside.is_there else replace(case, ahead=None) for case in waiting]
                 returned.extendleft(reversed(left))  # these were sent to a host that has ended
                 waiting.clear()
         finally:
@@ -216,18 +212,27 @@ class Driver(Disguising):
         self._second_looks.note(answer)
         self._incident_time.note_skips(answer.disguised, answer.trace if answer.incident is None else ())
 
-    def _ahead(self, run: Run) -> Future[HostAnswer] | None:
-        """The answer of a side host to come; None if the scenario is none that waits, or there are none."""
-        side = self._side_hosts_for(run.scenario)
-        return side.submit(run) if side is not None else None
+    @property
+    def has_side_hosts(self) -> bool:
+        """Are there side hosts, or may there be some?"""
+        return self._aside.number > 0
 
-    def _side_hosts_for(self, scenario: Scenario) -> SideHosts | None:
-        """The side hosts, if there are to be any and ``scenario`` mostly waits."""
-        if not self._side_hosts or not waits(scenario) or any(isinstance(one, Stress) for one in scenario.steps):
-            return None
-        if self._side is None:
-            self._side = SideHosts(self._endpoint, self._hosts.limits, self._side_hosts, self.identity)
-        return self._side
+    def may_begin(self, scenario: Scenario) -> bool:
+        """May side hosts take ``scenario``?"""
+        return self._aside.may_take(scenario)
+
+    def begin(self, cases: Sequence[tuple[str, Scenario]]) -> None:
+        """Let side hosts begin with ``cases``, each of which they may, before a ``run`` asks for them."""
+        self._aside.expect(scenario for _, scenario in cases)
+        for name, scenario in cases:
+            if id(scenario) not in self._begun:
+                new = self._case(name, scenario)
+                self._begun[id(scenario)] = replace(new, ahead=self._ahead(new, is_due=False))
+
+    def _ahead(self, case: _Case, is_due: bool = True) -> Future[HostAnswer] | None:
+        """The answer of a side host to come; None if the scenario is not for them."""
+        side = self._aside.hosts_for(case.run.scenario)
+        return side.submit(case.run, is_due) if side is not None else None
 
     def _answered_ahead(self, case: _Case, insist: bool) -> Answer | None:
         """What a side host has answered; None if something else than the product kept it from answering."""
@@ -244,15 +249,16 @@ class Driver(Disguising):
         return answer
 
     def _end_side_hosts(self) -> None:
-        if self._side is not None:
-            self._side.close()
-            self._left_behind += self._side.left_behind
-        self._side, self._side_hosts = None, 0
+        self._aside.end()
         self._second_looks.forget()
 
     def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
         case = next(source, None)
-        return self._case(*case) if case is not None else None
+        if case is None:
+            return None
+        if (begun := self._begun.pop(id(case[1]), None)) is None:
+            return self._case(*case)
+        return replace(begun, name=case[0], ahead=begun.ahead if self._aside.is_there else None)
 
     def _case(self, name: str, scenario: Scenario) -> _Case:
         return _Case(name, scenario, Run(next(self._numbers), self.disguise.scenario(scenario)))
@@ -273,7 +279,7 @@ class Driver(Disguising):
     def look_ahead(self, cases: Iterable[tuple[str, Scenario]], circumstances: Circumstances) -> None:
         """Lets side hosts take those of ``cases`` that mostly wait."""
         for name, scenario in cases:
-            side = self._side_hosts_for(scenario)
+            side = self._aside.hosts_for(scenario)
             if side is not None:
                 self._second_looks.begin(name, scenario, circumstances, self.disguise, side)
 
@@ -341,7 +347,7 @@ class Driver(Disguising):
 
     def _out_of_time(self, answer: HostAnswer) -> str | None:
         """Why the times of the trace cannot be true; None if they can."""
-        clock = self._clocks.setdefault(answer.host, HostClock(self._is_near))
+        clock = self._clocks.setdefault(answer.host, HostClock(self._is_near, in_order=answer.host >= 0))
         events = answer.reply.events if isinstance(answer.reply, Traced) else ()
         return clock.contradiction(events, answer.sent, answer.received)
 
@@ -366,7 +372,8 @@ class Driver(Disguising):
             if (
                 first is not None
                 and apart.scenario is not case.scenario
-                and _hangs_openly(run.scenario, second, happened)
+                and second.reply.kind == "hang"
+                and is_left_open(Execution("", run.scenario, happened))
             ):
                 self._calls_apart = True
                 return self._examine(apart, self._hosts.run_again(apart.run), insist=False)
@@ -375,15 +382,6 @@ class Driver(Disguising):
         if first is None:
             return self._examine(case, second, insist=True)
         return replace(answer, incident=msgspec.structs.replace(first, reproduced=False))
-
-
-def _number_ahead(cases: Iterable[_Case]) -> int:
-    return sum(case.ahead is not None for case in cases)
-
-
-def _hangs_openly(scenario: Scenario, answer: HostAnswer, happened: Trace) -> bool:
-    hangs = isinstance(answer.reply, Incident) and answer.reply.kind == "hang"
-    return hangs and is_left_open(Execution("", scenario, happened))
 
 
 @dataclass(frozen=True)

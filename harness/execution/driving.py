@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
@@ -68,10 +68,13 @@ class Circumstances:
 
 
 class Gaps(Protocol):
-    """Knows when the machine stood still."""
+    """Knows when the machine stood still, and how long threads waited for a processor."""
 
     def longest(self, trace: Trace) -> int:
         """Milliseconds of the longest gap while ``trace`` came about; 0 if there was none."""
+
+    def contended(self, trace: Trace) -> int:
+        """Milliseconds for which threads of this machine waited for a processor while ``trace`` came about; 0 if not known."""
 
 
 class Allowance(Protocol):
@@ -109,6 +112,18 @@ class Disguising:
         if self._disguise is None:
             self._disguise = Disguise(self.seed, self.identity.port_element_name)
         return self._disguise
+
+    @property
+    def has_side_hosts(self) -> bool:
+        """Are there further hosts, or may there be some?"""
+        return False
+
+    def may_begin(self, scenario: Scenario) -> bool:
+        """Would a further host run ``scenario`` before it is due?"""
+        return False
+
+    def begin(self, cases: Sequence[tuple[str, Scenario]]) -> None:
+        """These ``cases`` (name, scenario) will be run: further hosts begin with them."""
 
     def look_ahead(self, cases: Iterable[tuple[str, Scenario]], circumstances: Circumstances) -> None:
         """These ``cases`` (name, scenario) will be run ``again`` in these ``circumstances``: what can be begun may begin."""
@@ -166,6 +181,16 @@ class Driving(Protocol):
 
     def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:
         """The answers to ``cases`` (name, scenario), in order."""
+
+    @property
+    def has_side_hosts(self) -> bool:
+        """Are there further hosts, or may there be some?"""
+
+    def may_begin(self, scenario: Scenario) -> bool:
+        """May ``begin`` be called with ``scenario``?"""
+
+    def begin(self, cases: Sequence[tuple[str, Scenario]]) -> None:
+        """These ``cases`` will be run."""
 
     def again(self, name: str, scenario: Scenario, circumstances: Circumstances) -> Answer:
         """The same scenario run once more, in other ``circumstances``."""

@@ -5,13 +5,16 @@ Who shifts all times of a record alike, and keeps to all rules, is not found out
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.harness.execution.driving import Answer
 from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.host_watch import Limits
-from ucm_cts.harness.hosting.hosts import LONGEST, waits
+from ucm_cts.harness.hosting.hosts import LONGEST
+from ucm_cts.harness.hosting.pace import Pace, waits
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.unanswered_calls import is_left_open
@@ -19,6 +22,8 @@ from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incid
 
 MOST_SHOWN = 20
 """How many problems are told one by one."""
+
+_MILLISECOND = 1_000_000
 
 _Source = Literal["run", "again", "series"]
 
@@ -29,6 +34,7 @@ class Plausibility:
     def __init__(self, isolation: Isolation, limits: Limits) -> None:
         self._is_near = isolation != "remote"
         self._limits = limits
+        self._pace = Pace()
         self._found: list[str] = []
         self._more = 0
         self._at = 0
@@ -115,6 +121,7 @@ class Plausibility:
         if at < self._at:
             self.tell(f"'{one_line(answer.name, 80)}': its answer came {self._at - at} ms before the one before it")
         took = min(max(at - self._at, 0), self._longest(answer))
+        self._pace.note(answer.disguised, answer.trace if answer.incident is None else (), math.inf)
         self._at = max(at, self._at)
         self.spent += took
         return took
@@ -124,7 +131,8 @@ class Plausibility:
         start = self._limits.welcome_seconds * 1000
         if answer.trace and answer.incident is None:
             return start + max(0, answer.trace[-1].t - answer.trace[0].t) / 1e6
-        return start + 2000 * LONGEST * (self._limits.seconds + waits(answer.disguised))
+        more = self._pace.more_for(len(answer.disguised.steps))
+        return start + 2000 * LONGEST * (self._limits.seconds + waits(answer.disguised) + more)
 
     def _tried_too_little(self, scenario: Scenario, incident: Incident) -> str | None:
         """Why the scenario cannot have been left out; None if it can."""
@@ -138,6 +146,12 @@ class Plausibility:
         if problem is not None:
             self.tell(f"the trace of '{one_line(answer.name, 80)}' cannot be true: {one_line(problem)}")
         return problem is None
+
+    def take_contention(self, milliseconds: int, trace: Trace) -> None:
+        """For so long threads waited for a processor while ``trace`` came about."""
+        times = [event.t for event in trace]
+        if milliseconds and milliseconds > (max(times) - min(times)) // _MILLISECOND:
+            self.tell(f"threads cannot have waited {milliseconds} ms for a processor: the trace is shorter")
 
     def tell(self, problem: str) -> None:
         """Add a line about what cannot be true."""

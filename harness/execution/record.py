@@ -122,6 +122,12 @@ class Stood(Entry, frozen=True, tag="gap"):
     milliseconds: _Milliseconds
 
 
+class Contended(Entry, frozen=True, tag="contention"):
+    """Threads of the machine waited so many ``milliseconds`` for a processor while the last trace that was asked about came about."""
+
+    milliseconds: _Milliseconds
+
+
 class UsedUp(Entry, frozen=True, tag="time used up"):
     """The time for second looks was used up."""
 
@@ -140,7 +146,7 @@ class Shorter(Performed, frozen=True, tag="shorter"):
     is_whole: bool = False
 
 
-AnyEntry = Answered | Repeated | InSeries | SeriesCut | Counted | Stood | UsedUp | Shorter
+AnyEntry = Answered | Repeated | InSeries | SeriesCut | Counted | Stood | Contended | UsedUp | Shorter
 
 
 class Heading(Value, frozen=True):

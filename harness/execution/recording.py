@@ -118,6 +118,12 @@ class _RecordedGaps(ClockGaps):
             self._recorder.add(r.Stood(self._recorder.now, found))
         return found
 
+    def contended(self, trace: Trace) -> int:
+        found = super().contended(trace)
+        if found:
+            self._recorder.add(r.Contended(self._recorder.now, found))
+        return found
+
 
 class _RecordedSeconds(Seconds):
     def __init__(self, seconds: float, recorder: Recorder) -> None:

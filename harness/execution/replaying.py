@@ -19,6 +19,7 @@ from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.harness.execution import record as r
 from ucm_cts.harness.execution.alignment import Alignment, Placed
 from ucm_cts.harness.execution.calls_apart import with_calls_apart
+from ucm_cts.harness.execution.confirmation import TROUBLE
 from ucm_cts.harness.execution.disguise import revealed_by
 from ucm_cts.harness.execution.driving import Allowance, Answer, Circumstances, Disguising, lasting
 from ucm_cts.harness.execution.plausibility import Plausibility
@@ -55,6 +56,7 @@ class Replay(Disguising):
         self._second_looks = 0
         self._untraced = 0
         self._gaps = 0
+        self._contentions = 0
         self.is_drawing = False
         """Do the scenarios that are asked for follow from the traces before?"""
         self._words: dict[str, str] | None = None
@@ -72,7 +74,9 @@ class Replay(Disguising):
             f"that {self._untraced} of {self._second_looks} second looks gave no trace: one may have shown a failure"
         )
         gaps = f"that the machine stood still {self._gaps} times: a failure at that time that depends on time does not count"
-        return (*((looks,) if self._untraced else ()), *((gaps,) if self._gaps else ()))
+        short = f"that the machine had too few processors {self._contentions} times: lateness that was seen once then does not count"
+        said = ((looks, self._untraced), (gaps, self._gaps), (short, self._contentions))
+        return tuple(text for text, is_so in said if is_so)
 
     @property
     def identity(self) -> Welcome:
@@ -101,16 +105,27 @@ class Replay(Disguising):
 
     @property
     def gaps(self) -> Replay:
-        """Itself: it knows when the machine stood still."""
+        """Itself: it knows when the machine stood still, or had too few processors."""
         return self
 
     def longest(self, trace: Trace) -> int:
         """Milliseconds that the machine stood still while ``trace`` came about, as the record says."""
+        found = self._told(r.Stood, trace)
+        self._gaps += found > 0
+        return found
+
+    def contended(self, trace: Trace) -> int:
+        """Milliseconds for which threads waited for a processor while ``trace`` came about, as the record says."""
+        found = self._told(r.Contended, trace)
+        self._contentions += found >= TROUBLE
+        self._plausible.take_contention(found, trace)
+        return found
+
+    def _told(self, kind: type[r.Stood | r.Contended], trace: Trace) -> int:
         entry = self._entries.head if trace else None
-        if not isinstance(entry, r.Stood):
+        if not isinstance(entry, kind):
             return 0
         self._entries.pop()
-        self._gaps += 1
         return entry.milliseconds
 
     def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:

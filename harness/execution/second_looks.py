@@ -57,7 +57,12 @@ class SecondLooks:
     def begin(
         self, name: str, scenario: Scenario, circumstances: Circumstances, disguise: Disguise, side: SideHosts
     ) -> None:
-        """Let one of the hosts at the ``side`` take a look that will be asked for."""
+        """Let one of the hosts at the ``side`` take a look that will be asked for, unless one has begun."""
+        known, older = self._begun.get((name, circumstances), (None, None))
+        if known is not None and known.scenario is scenario:
+            return
+        if older is not None:
+            older.cancel()
         look = self._new(scenario, circumstances, disguise)
         begun = side.submit_again(look.run, circumstances.one_core, look.before)
         self._begun[name, circumstances] = look, begun

@@ -27,7 +27,6 @@ import msgspec
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Event
-from ucm_cts.adapters.contract.traits import duration
 from ucm_cts.adapters.sdk.python.host import ASKED_FOR_MODULES
 from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
 from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, TemplateProcess
@@ -41,6 +40,7 @@ from ucm_cts.harness.hosting.host_watch import (
     WatchedHost,
 )
 from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
+from ucm_cts.harness.hosting.pace import Pace, waits
 from ucm_cts.harness.hosting.remote_hosts import Connector
 from ucm_cts.harness.hosting.sandbox import GIVEN_UP, why_none
 from ucm_cts.harness.hosting.view import view_of
@@ -52,17 +52,11 @@ __all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
 
 _SHOWN = 80
 
+_NARROW = 4
+"""How many messages are on their way to a product that may be slow, so that others may take the next ones."""
+
 _FORK_SECONDS = 2.0
 """How long the fork of a host may take, at least."""
-
-SECONDS_A_STEP = 0.02
-"""A long scenario gets so much time more for each step after the first ``LONG``: some have hundreds."""
-
-LONG = 50
-"""The number of steps that fit into the usual time."""
-
-COMPUTED = 10
-"""Threads of ``Stress`` compute as long as it lasts: on a busy machine, and in virtual time, that may take so many times longer."""
 
 LONGEST = 4
 """A run that sends its events as they happen may take so many times what it is allowed, as long as they come."""
@@ -93,20 +87,27 @@ class Hosts:
 
     ``welcome``: what the first host must say of the product, if that is known.
     ``core``: the number of the core that hosts are kept to when they are to have one only.
+    ``pace``: of the product; other hosts may share it.
     Raises ``WrongUse`` from ``welcome`` and ``run`` if the endpoint leads to no adapter, ``HostUnavailable`` if no first
     host can be had.
     """
 
     def __init__(
-        self, endpoint: Endpoint, limits: Limits | None = None, welcome: m.Welcome | None = None, core: int = 0
+        self,
+        endpoint: Endpoint,
+        limits: Limits | None = None,
+        welcome: m.Welcome | None = None,
+        core: int = 0,
+        pace: Pace | None = None,
     ) -> None:
         self._endpoint = endpoint
+        self.pace = pace or Pace()
         self._core = core
         self.limits = limits or Limits()
         self._opener: Opener | None = None
         self._host: Host | None = None
         self._welcome = welcome
-        self._opened = 0
+        self._opened = self._latest = 0
         self._is_over = False
         self.left_behind: Counter[str] = Counter()
         """The command lines of processes that hosts left behind, which were ended, and how many of each."""
@@ -126,10 +127,9 @@ class Hosts:
         return self._welcome
 
     def run(self, runs: Iterable[m.Run], window: int = 32) -> Generator[Answer, None, None]:
-        """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time.
+        """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time, fewer until its pace is known.
 
         Between two answers the caller may ``run_again``: what was on its way is then sent again.
-
         If there is no host any more, what remains is answered by incidents of kind ``unreachable``.
         """
         assert window > 0
@@ -140,7 +140,8 @@ class Hosts:
         sent = 0  # how many of those waiting have been sent to the current host
         try:
             while True:
-                waiting.extend(itertools.islice(source, window - len(waiting)))
+                most = window if self.pace.is_known else min(window, _NARROW)
+                waiting.extend(itertools.islice(source, max(0, most - len(waiting))))
                 if not waiting:
                     return
                 if self._host is None:
@@ -164,8 +165,11 @@ class Hosts:
                 sent = len(waiting)
                 host = self._opened
                 answer = self._receive(waiting[0])
-                times = {"sent": when.popleft(), "received": time.monotonic_ns()}
-                answer = msgspec.structs.replace(answer, host=host, **times)
+                before, began, self._latest = self._latest, when.popleft(), time.monotonic_ns()
+                if isinstance(answer.reply, m.Traced):
+                    at_most = (self._latest - max(began, before)) / 1e9
+                    self.pace.note(waiting[0].scenario, answer.reply.events, at_most)
+                answer = msgspec.structs.replace(answer, host=host, sent=began, received=self._latest)
                 waiting.popleft()
                 sent -= 1
                 yield answer
@@ -341,7 +345,7 @@ class Hosts:
 
     def allowed(self, scenario: s.Scenario) -> float:
         """How many seconds ``scenario`` may take."""
-        return self.limits.seconds + waits(scenario) + SECONDS_A_STEP * max(0, len(scenario.steps) - LONG)
+        return self.limits.seconds + waits(scenario) + self.pace.more_for(len(scenario.steps))
 
     def start_fresh(self) -> None:
         """End the host, if there is one, and start another. Raises ``HostUnavailable`` and ``WrongUse``."""
@@ -352,21 +356,6 @@ class Hosts:
         host, self._host = self._host, None
         if host:
             host.close()
-
-
-def waits(scenario: s.Scenario) -> float:
-    """How many seconds ``scenario`` itself may have a host wait, at most, if each probe is held at a gate once."""
-    waiting = 0
-    milliseconds = 0
-    threads = False
-    for step in scenario.steps:
-        threads = threads or step.thread is not None
-        waiting += step.waits
-        milliseconds += duration(step)[1] * (COMPUTED if isinstance(step, s.Stress) else 1)
-    for declaration in scenario.components.values():
-        for actions in declaration.plan.values():
-            waiting += sum(isinstance(action, s.HoldAtGate) for action in actions)
-    return ((waiting + threads) * scenario.patience + milliseconds) / 1000
 
 
 def _decode(host: Host, line: bytes) -> m.FromHost:

@@ -14,10 +14,11 @@ import msgspec
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, read_text
-from ucm_cts.harness.catalogue.profiles import PROFILES
+from ucm_cts.harness.catalogue.profiles import PARTS, PROFILES
 from ucm_cts.harness.catalogue.requirements import Level
 from ucm_cts.harness.report.json_report import ReportEntry, StatementEntry
 from ucm_cts.harness.report.order import clause_key
+from ucm_cts.harness.report.stated import of_profile
 from ucm_cts.harness.results.values import Overall, Verdict
 
 
@@ -62,8 +63,8 @@ class PublishedIncident(Value, frozen=True):
 class PublishedResult(Value, frozen=True):
     """The result of one product in one profile.
 
-    ``statement`` is None where the vendor stated nothing. ``readings`` are the observed readings of each option
-    that the vendor declares no value of; of others a run may show one value more or less.
+    ``statement`` is what the vendor stated of the profile, None where the vendor stated nothing. ``readings`` are the
+    observed readings of each option that the vendor declares no value of; of others a run may show one value more or less.
     """
 
     product: str
@@ -111,7 +112,7 @@ def published(report: ReportEntry) -> PublishedResult:
         tuple(sorted(failures, key=lambda f: (clause_key(f.clause), msgspec.structs.astuple(f)))),
         tuple(sorted(incidents, key=msgspec.structs.astuple)),
         {option: tuple(sorted(seen)) for option, seen in sorted(report.readings.items()) if option not in declared},
-        report.statement if report.statement.source else None,
+        of_profile(report.statement, PARTS[report.profile]) if report.statement.source else None,
     )
 
 

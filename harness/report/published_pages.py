@@ -66,7 +66,7 @@ def product_page(results: Sequence[PublishedResult], others: Sequence[str] = ())
             ("Incidents", [(i.kind, i.detail, i.scenario) for i in result.incidents]),
             ("Neither pass nor fail", _undecided(result)),
             ("Observed readings", [(option, ", ".join(seen)) for option, seen in result.readings.items()]),
-            ("Stated readings", list(result.statement.readings.items()) if result.statement else []),
+            ("Stated readings", _declared(result)),
         ):
             if found:
                 lines += ["", f"## {title}, profile {result.profile}", "", *table(_HEADS[title], found)]
@@ -147,3 +147,9 @@ def _failures(result: PublishedResult) -> list[tuple[str, ...]]:
 
 def _undecided(result: PublishedResult) -> list[tuple[str, ...]]:
     return [(r.id, r.title, r.verdict, r.reason) for r in result.requirements if r.verdict not in ("pass", "fail")]
+
+
+def _declared(result: PublishedResult) -> list[tuple[str, str]]:
+    """The options with the values that the vendor declares; those that are declared to be ``observed`` are shown as observed."""
+    readings = result.statement.readings if result.statement else {}
+    return [(option, value) for option, value in readings.items() if value != "observed"]

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import msgspec
+
 from ucm_cts.harness.catalogue.requirements import Capability, Interpretation, capabilities_for, declarable
+from ucm_cts.harness.report.json_report import StatementEntry
 from ucm_cts.harness.results.statement import IXIT, Quantity, Statement
 
 
@@ -30,13 +33,29 @@ def stated(statement: Statement, readings: Mapping[str, tuple[str, ...]], profil
         [(c, claimed) for c, claimed in claims.items() if claimed or c.profile in profiles],
         [
             (option, statement.readings.get(option, values[0]), readings.get(option, ()), entry)
-            for entry in declarable()
-            if entry.profile in profiles
+            for entry in _decisions(profiles)
             for option, values in entry.options.items()
         ],
-        [
-            (name, statement.ixit.get(name, quantity.default), quantity)
-            for name, quantity in IXIT.items()
-            if "core" in profiles
-        ],
+        [(name, statement.ixit.get(name, quantity.default), quantity) for name, quantity in _quantities(profiles)],
     )
+
+
+def of_profile(statement: StatementEntry, profiles: tuple[str, ...]) -> StatementEntry:
+    """``statement`` without the parts, options and quantities that do not concern the ``profiles``."""
+    parts = {c.id for c in capabilities_for(profiles)}
+    options = {option for entry in _decisions(profiles) for option in entry.options}
+    quantities = {name for name, _ in _quantities(profiles)}
+    return msgspec.structs.replace(
+        statement,
+        capabilities={part: claimed for part, claimed in statement.capabilities.items() if part in parts},
+        readings={option: value for option, value in statement.readings.items() if option in options},
+        ixit={name: value for name, value in statement.ixit.items() if name in quantities},
+    )
+
+
+def _decisions(profiles: tuple[str, ...]) -> list[Interpretation]:
+    return [entry for entry in declarable() if entry.profile in profiles]
+
+
+def _quantities(profiles: tuple[str, ...]) -> list[tuple[str, Quantity]]:
+    return list(IXIT.items()) if "core" in profiles else []

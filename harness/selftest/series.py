@@ -28,11 +28,12 @@ WIDTH = 140
 
 @dataclass(frozen=True)
 class SeriesRun:
-    """One run of a series: its name, its verdict, and that of each requirement."""
+    """One run of a series: its name, its verdict, that of each requirement, and why, where the report says why."""
 
     name: str
     verdict: str
     verdicts: Mapping[str, str]
+    reasons: Mapping[str, str]
     incidents: int
     seconds: float
     measures: Mapping[str, int]
@@ -63,6 +64,10 @@ def main(adapter: str, profile: str, runs: int, variants: Sequence[str], busy: i
                 click.echo(f"{len(done)} of {len(cases)}: {done[-1].verdict}, {done[-1].seconds:.1f} s", err=True)
     title = f"{adapter}, profile {profile}, {len(done)} runs{f', {busy} busy processors' if busy else ''}"
     Console(width=WIDTH).print(table(title, done))
+    for run in done:
+        for requirement in run.flips(done[0]):
+            reason = run.reasons.get(requirement) or "no reason is given"
+            click.echo(f"{run.name}: {requirement} {run.verdicts.get(requirement, 'not judged')}: {reason}")
     if out is not None:
         out.write_text(markdown(title, done), encoding="utf-8")
     steady = all(run.verdict == "conformant" and not run.flips(done[0]) for run in done)
@@ -82,9 +87,12 @@ def one_run(adapter: str, profile: str, variant: str, number: int) -> SeriesRun:
         except OSError:
             raise click.ClickException(f"run {number} left no report: {done.stderr.strip()}") from None
     verdicts = {result["id"]: result["verdict"] for result in report["requirements"]}
+    reasons = {result["id"]: result["reason"] for result in report["requirements"]}
     incidents = len(report.get("incidents", ()))
     label = value or f"{number}"
-    return SeriesRun(label, report["verdict"], verdicts, incidents, report["seconds"], report.get("measures", {}))
+    return SeriesRun(
+        label, report["verdict"], verdicts, reasons, incidents, report["seconds"], report.get("measures", {})
+    )
 
 
 @contextlib.contextmanager

@@ -91,6 +91,7 @@ def examination_for(
             models,
             {**not_applicable(statement), **_unclaimed(profile, statement)},
             _may_be_refused(statement, IMPOSSIBLE_IN_IDL),
+            meets=statement.meets,
         )
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
@@ -106,7 +107,16 @@ def examination_for(
     refusable = _may_be_refused(statement, IMPOSSIBLE_IN_CPP)
     is_of_cpp = functools.partial(is_code, _layout(how))
     return Generation(
-        compare, GENERATED, DECORATION_OF_CPP, renaming, expression, models, not_asked, refusable, is_of_cpp
+        compare,
+        GENERATED,
+        DECORATION_OF_CPP,
+        renaming,
+        expression,
+        models,
+        not_asked,
+        refusable,
+        is_of_cpp,
+        statement.meets,
     )
 
 

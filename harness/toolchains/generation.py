@@ -18,6 +18,8 @@ from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.commands.processing import Response
 from ucm_cts.harness.toolchains.corpus.decoration import PREFIX, decorated
 from ucm_cts.harness.toolchains.corpus.documentation import DOCUMENTATION, DOCUMENTED, WITHOUT, documented_models
+from ucm_cts.harness.toolchains.corpus.uncontested import PREFIX as UNCONTESTED
+from ucm_cts.harness.toolchains.corpus.uncontested import uncontested, understood
 from ucm_cts.harness.toolchains.cpp.probes.check import HEADERS
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.renaming import Renaming
@@ -70,16 +72,19 @@ class Generation:
         not_applicable: Mapping[str, str] = {},
         may_be_refused: Mapping[str, str] = {},
         is_code: IsCode = lambda name: True,
+        meets: Callable[[str], bool] = lambda reading: True,
     ) -> None:
         """``generates`` are the requirement, and its rule, that files can be had of a legal model at all; ``decoration`` are those
         that annotations and comments change nothing. Of the models
         only those of ``only``, if there is such a list, whose name holds a word of ``expression``, or all if none does: then
         only what is said of requirements that hold one of the words. ``not_applicable`` are requirements that do not apply, and why, and
         ``may_be_refused`` models that a vendor may refuse, by name, and the interpretation that says so. ``is_code`` is asked of
-        files that are made of documented models.
+        files that are made of documented models. ``meets`` says which readings of the text are declared: a model that needs another one may
+        be refused, and is asked without what is contested.
         """
         self.not_applicable = not_applicable
-        self._may_be_refused = may_be_refused
+        self._may_be_refused = dict(may_be_refused)
+        self._accepted: dict[str, bool | None] = {}
         self._is_code = is_code
         self._compare = compare
         self._generates = generates
@@ -87,6 +92,8 @@ class Generation:
         wanted = None if only is None else {*only, *(name.removeprefix(PREFIX) for name in only)}
         known = {**mapping_models(), **documentation_models()}
         chosen = {name: text for name, text in known.items() if wanted is None or name in wanted}
+        chosen |= {name: understood(text, meets) for name, text in chosen.items() if name not in documentation_models()}
+        chosen |= dict(self._without_the_contested(chosen, meets))
         models = {name: _renaming_for(name, renaming).apply(text) for name, text in chosen.items()}
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         named = {name: text for name, text in models.items() if any(word in name.lower() for word in words)}
@@ -100,7 +107,8 @@ class Generation:
 
     def examine(self, name: str, response: Response) -> tuple[Fact, ...]:
         """The facts that the files of one model show; those of documented models are compared with each other only."""
-        if name in documentation_models():
+        self._accepted[name] = response.accepted
+        if name in documentation_models() or self._is_needless(name):
             return ()
         return tuple(fact for fact in self._facts(name, response) if self._is_wanted(fact.requirement))
 
@@ -110,12 +118,30 @@ class Generation:
         for name in responses:
             if name in documentation_models():
                 yield from self._of_documentation(name, responses, misspelt.get(name, ""))
+            elif self._is_needless(name):
+                continue
             elif name in misspelt:
-                yield Fact(self._generates[0], (name,), undecided=misspelt[name])
+                said = responses[name].first_line or "nothing"
+                yield Fact(self._generates[0], (name,), undecided=f"{misspelt[name]}; the tool chain said: {said}")
             elif name.startswith(PREFIX):
                 yield from self._of_decoration(name, responses[name], shown)
             else:
                 yield from shown[name]
+
+    def _without_the_contested(
+        self, models: Mapping[str, str], meets: Callable[[str], bool]
+    ) -> Iterator[tuple[str, str]]:
+        """The models that are asked if others are refused, which their vendor may do then."""
+        for name in (one for one in models if one not in documentation_models()):
+            rest, allowed_by = uncontested(models[name], meets)
+            if allowed_by:
+                self._may_be_refused.setdefault(name.removeprefix(PREFIX), ", ".join(allowed_by))
+                if not name.startswith(PREFIX):
+                    yield f"{UNCONTESTED}{name}", rest
+
+    def _is_needless(self, name: str) -> bool:
+        """Is it a model without what is contested, and the whole one was accepted?"""
+        return name.startswith(UNCONTESTED) and self._accepted.get(name.removeprefix(UNCONTESTED)) is True
 
     def _of_decoration(self, name: str, response: Response, shown: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """Whether the files show nothing wrong that those of the model without decoration do not show."""

@@ -18,40 +18,23 @@ from ucm_cts.adapters.contract.metamodel.contracts import CHAR_KINDS, FLOAT_KIND
 from ucm_cts.adapters.contract.metamodel.spelling import SHORT_STRINGS
 from ucm_cts.adapters.contract.metamodel.writing import CANONICAL, Dialect
 from ucm_cts.harness.catalogue.requirements import SUITE
+from ucm_cts.harness.toolchains.corpus.declarations import REFERENCES
 
 _NAMES = frozenset(
-    [
-        "abstractType",
-        "actualType",
-        "annotationDefinition",
-        "api",
+    (
+        *REFERENCES,
         "configurationParameter",
-        "connectorItem",
-        "definition",
         "enumerator",
-        "exception",
-        "extends",
-        "indexType",
-        "instanceOf",
-        "interactionItem",
-        "interface",
         "internalPart",
         "internalPort",
         "item",
         "name",
         "part",
-        "pattern",
         "port",
-        "portRole",
-        "refines",
         "refinesPort",
         "role",
         "selectorName",
-        "selectorType",
-        "technicalAspect",
-        "technicalPolicyDefinition",
-        "type",
-    ]
+    )
 )
 """Attributes that hold names or references."""
 

@@ -82,12 +82,19 @@ class BusinessCall(Changing):
                     self.possible = False
                     break
 
-    def callers(self) -> Iterator[Execution]:
-        """The executions that wait for this call, the innermost first."""
+    def callers(self, at: int = 0) -> Iterator[Execution]:
+        """The executions that wait for this call when it is made, or at event ``at``, the innermost first.
+
+        One that had ended by then, because what it pushed was not waited for, waits no longer.
+        """
         caller = self.caller
-        while caller is not None:
+        while caller is not None and not (caller.over and caller.end < (at or self.n)):
             yield caller
             caller = caller.call.caller if caller.call is not None else None
+
+    def leads_back_to(self, member: Member) -> bool:
+        """Does an execution of ``member`` wait for this call?"""
+        return any(caller.enter.body == member.body for caller in self.callers())
 
     def is_like(self, other: BusinessCall) -> bool:
         """Does it call ``exchange`` of the same port elements with the same value, so that an entry does not show which one led to it?"""

@@ -1,10 +1,11 @@
-"""What connections with connectors of 10.4 have in common: their ends, what disturbs them, and what is waited for in vain."""
+"""What connections with connectors of 10.4 have in common: their ends and values, what disturbs them, and what is waited for in vain."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.platform_interfaces import CONNECTOR_PORTS, named_interfaces
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.reference_models.model.links import End, LinkState, element_names
@@ -12,6 +13,13 @@ from ucm_cts.reference_models.model.messages import waited_for
 from ucm_cts.reference_models.model.method_calls import Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
+
+_LONGEST = 200
+
+
+def value_shown(value: object) -> str:
+    """A value that a connection carries, for people; of a long one the beginning."""
+    return printed(value, _LONGEST)
 
 
 def end_at(link: LinkState, member: object, port: str, moment: int) -> End | None:

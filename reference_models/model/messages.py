@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.trace import Timeout
+from ucm_cts.reference_models.model.execution_policies import protection_of
 from ucm_cts.reference_models.model.links import End
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -56,6 +57,17 @@ def counts(member: Member) -> bool:
 def may_miss_an_end(call: MethodCall) -> bool:
     """Is comm_error true because an end of its connection has been removed without being detached?"""
     return call.code == COMM_ERROR and call.link is not None and call.link.has_lost_an_end
+
+
+def comes_back(call: MethodCall) -> bool:
+    """Is one of its receivers the emitter itself, or a component that waits for the emitter? What becomes of calls that come back to a
+    component that may be protected is open (protected-recursion).
+    """
+    return any(
+        (end.member is call.caller or call.business.leads_back_to(end.member))
+        and protection_of(end.member.declaration) != "unprotected"
+        for end, _ in call.targets
+    )
 
 
 def settling_time(runtime: ObservedRuntime) -> float:

@@ -112,6 +112,7 @@ class OperationInProgress(Changing):
     ``is_after_removal``: its container, or the runtime, has been removed: the text says nothing about it.
     ``forgiving``: it may end in UCM_ERROR for a reason that the rows do not show; None while nobody has looked at other containers
     for one (``is_forgiving``).
+    ``open_options``: those whose reading it does not show; with an exception only, those in ``open_if_refused``.
     ``lost``: the state that it leaves is not known.
     ``callbacks``: the entries meanwhile, with their ``hooks``, and the same ``by_body``.
     ``inside``: those of ``callbacks`` that have not been left.
@@ -129,6 +130,8 @@ class OperationInProgress(Changing):
     judged: bool = True
     is_after_removal: bool = False
     forgiving: bool | None = False
+    open_options: tuple[str, ...] = ()
+    open_if_refused: tuple[str, ...] = ()
     lost: bool = False
     callbacks: list[Enter] = []
     hooks: set[Hook] = set()

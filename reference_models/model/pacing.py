@@ -19,11 +19,16 @@ _SLACK = 4
 
 
 class Untimely(NamedTuple):
-    """An execution that came ``by`` nanoseconds too early or too late, after the execution ``after`` if that is why."""
+    """An execution that came ``by`` nanoseconds too early or too late, after the execution ``after`` if that is why.
+
+    ``late_by``: by so much it came later than it may, if it is too early only for what follows, or ``after`` did, if that is why the
+    two are too close; 0 if nothing was late.
+    """
 
     execution: PacedExecution
     by: int
     after: PacedExecution | None = None
+    late_by: int = 0
 
 
 def groups(runtime: ObservedRuntime, phase: PacedPhase) -> list[list[PacedExecution]]:
@@ -54,10 +59,11 @@ def too_early(
     for execution in executions:
         since = phase.busy_since(execution.t, lateness(runtime)) - lateness(runtime)
         latest = -((phase.first(latest=True) - since) // phase.period)
-        number = max(number + (reading == "one-a-period"), latest, 0)
+        free = number + (reading == "one-a-period")
+        number = max(free, latest, 0)
         due = phase.first(latest=False) + number * phase.period - granularity(runtime)
         if execution.t < due:
-            return Untimely(execution, due - execution.t, before)
+            return Untimely(execution, due - execution.t, before, _late_for(runtime, phase, execution, free))
         before = execution
     return None
 
@@ -72,8 +78,19 @@ def too_close(runtime: ObservedRuntime, phase: PacedPhase, executions: Sequence[
             since = earlier.left if from_end and i == j - 1 else earlier.t
             due = since + (j - i) * phase.period - slack
             if execution.t < due:
-                return Untimely(execution, due - execution.t, executions[j - 1])
+                before, by = executions[j - 1], due - execution.t
+                since = executions[j - 2].t + phase.period if j > 1 else 0
+                was_late = before.t - max(before.asked, since) >= by
+                return Untimely(execution, by, before, by if was_late else 0)
     return None
+
+
+def _late_for(runtime: ObservedRuntime, phase: PacedPhase, execution: PacedExecution, free: int) -> int:
+    """By how much it is late for the instant before it, which is that or a later one than number ``free``; 0 if it is early for the next one."""
+    number, passed = divmod(execution.t - phase.first(latest=False), phase.period)
+    if number < max(free, 0) or passed >= phase.period - phase.period // _SLACK:
+        return 0
+    return max(0, passed - lateness(runtime))
 
 
 def too_late(

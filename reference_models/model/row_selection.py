@@ -186,6 +186,9 @@ class RowSelection:
         ongoing.unclear_if(provider is not None and provider.doubtful)
         provided = runtime.ports.get(step.to, "")
         ongoing.unclear_if(provider is not None and differ(member, step.port, provider, provided))
+        is_second_to_itself = provider is member and bool(member.live_connections(step.port))
+        if is_second_to_itself and runtime.ics.permits("self-connection", "refuse"):
+            ongoing.open_if_refused = ("second-connect",)
 
     def _kind_of_connection(self, member: Member, step: s.Connect, provider: Member | None) -> str:
         if member.live_connections(step.port):
@@ -245,6 +248,9 @@ class RowSelection:
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")
         unready = {m for m in members if m.state == "initialized"}
+        if unready and runtime.ics.reading("start-unconfigured") == "refuse":
+            # a connector may count as what a client is connected to, also while that has no server
+            ongoing.open_options = ("start-unconfigured",) if all(_is_attached(runtime, m) for m in unready) else ()
         failing = {m for m in members if m.raises("on_startup")}
         ongoing.unclear_if(any(not m.operational for m in failing) if started else bool(unready and failing))
         for member in members:
@@ -290,6 +296,9 @@ class RowSelection:
         for container in runtime.containers.values():
             if container is ongoing.container or container.removed:
                 continue
+            if container.started is not False and not container.live_members():
+                # an empty container may be reached, which nobody sees
+                ongoing.open_options = (*ongoing.open_options, "stop-when-stopped")
             for member in container.live_members():
                 if member.suspended:
                     ongoing.forgiving = True
@@ -340,6 +349,13 @@ class RowSelection:
         for member in members:
             self._member_role(ongoing, member, condition)
             ongoing.unclear_if(member.raises(*_FAILING_END) or any(c.live is None for c in member.connections))
+
+
+def _is_attached(runtime: ObservedRuntime, member: Member) -> bool:
+    """Is each required port element of ``member`` connected, to another component or to a connector?"""
+    ends = [e for k in runtime.interactions.links.values() for e in k.ends if e.member is member and e.until is None]
+    attached = {end.port for end in ends}
+    return all(port in attached or member.live_connections(port) for port in member.declaration.requires)
 
 
 def _late(ongoing: OperationInProgress) -> str:

@@ -80,8 +80,7 @@ def _serves_several(runtime: ObservedRuntime, member: Member | None, port: str |
 
 def _comes_back(call: MethodCall, server: Member) -> bool:
     """Is the server among the bodies that wait for this call?"""
-    body = server.body
-    return any(one.enter.body == body for one in call.business.callers())
+    return call.business.leads_back_to(server)
 
 
 def is_nested(one: ServiceCall) -> bool:

@@ -90,7 +90,7 @@ def ok_when_healthy(check: Property, runtime: ObservedRuntime, call: MethodCall)
     if all(msg.is_well(end.member) for end, _ in call.targets):
         if call.code == msg.OK:
             return check.kept()
-        if msg.may_miss_an_end(call):
+        if msg.may_miss_an_end(call) or msg.comes_back(call):
             return ()
         blocking = runtime.ics.reading("message-overflow") == "block"
         if msg.is_quiet(runtime, call) or (blocking and call.code in msg.CODES):
@@ -124,6 +124,8 @@ def receivers_codes(check: Property, runtime: ObservedRuntime, call: MethodCall)
 def answered_at_all(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """A push that nothing disturbs is answered."""
     for call in msg.messages(runtime):
+        if msg.comes_back(call):
+            continue
         if call.reply is not None or not msg.is_whole(runtime, call) or not msg.is_healthy(runtime, call):
             continue
         if msg.waited_for(runtime, timeout, call.request.t):

@@ -160,7 +160,7 @@ def circle_entered(check: Property, runtime: ObservedRuntime, execution: ex.Exec
     if runtime.executions.is_alone(execution) and not runtime.interactions.calls:
         return ()  # who waits for a call is inside; a message may come to a body that has pushed it and gone on
     body = execution.enter.body
-    waiting = [c for c in execution.call.callers() if c.enter.body == body]
+    waiting = [c for c in execution.call.callers(execution.enter.n) if c.enter.body == body]
     member = runtime.bodies.get(body)
     if waiting and member is not None:
         return _returned_to(

@@ -19,6 +19,7 @@ from ucm_cts.reference_models.model.service_policies import BESIDE_EXECUTION, po
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _REENTERED, _RUN_IS_CALLED, _RUN_PHASE = "R-10.1.3.2-20", "R-10.1.3.2-01", "R-10.1.3.2-02"
+_RUN_ALONE = "R-10.1.3.2-05"
 _UNPROMPTED = "R-10.1.3.2-03"
 _ONE_POLICY, _ONE_EXTENDED = "R-10.1.3-03", "R-10.5.1-23"
 
@@ -118,7 +119,7 @@ def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execut
             )
 
 
-@property_at("began", "R-10.1.3.2-05", "R-10.5.2-18")
+@property_at("began", _RUN_ALONE, "R-10.5.2-18")
 def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """A run was held inside for several of the intervals at which run is called, and no other execution began."""
     runs = [run for run in execution.earlier if run.over]
@@ -130,6 +131,18 @@ def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execut
         declaration = runtime.scenario.components[execution.enter.component]
         return check.kept(policies.exclusion(declaration, runtime.ics, "run", "run"))
     return ()
+
+
+@property_at("over", _RUN_ALONE)
+def single_run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution, end: int) -> Concluded:
+    """Where run is declared to be called once a start: it was held inside while the scenario let time pass, and no other execution began."""
+    once = execution.way == "run" and runtime.ics.reading("run-trigger") == "once"
+    if not once or execution.met or not _time_passed(runtime, execution.enter.n, end):
+        return ()
+    declaration = runtime.scenario.components[execution.enter.component]
+    if policies.extended_policy(declaration) is not None:
+        return ()
+    return check.kept(policies.exclusion(declaration, runtime.ics, "run", "run"))
 
 
 @property_at("served", "R-10.1.3.2-17", timed=True)

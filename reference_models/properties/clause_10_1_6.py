@@ -52,7 +52,7 @@ def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
         refused, disturbed = call.code != msg.OK, msg.is_disturbed(runtime, call)
         if not call.deliveries and (refused or not disturbed):
             continue  # ok_kept's matter
-        if refused and (call.crowded or msg.may_miss_an_end(call)):
+        if refused and (call.crowded or msg.may_miss_an_end(call) or msg.comes_back(call)):
             continue
         requirement = _INDEPENDENCE if disturbed and not refused else _RECEIVERS
         got = ", ".join(sorted({d.receiver.lane for d in call.deliveries if d.receiver is not None}))

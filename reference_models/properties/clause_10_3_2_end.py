@@ -143,8 +143,9 @@ def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 yield from _no_surplus(check, runtime, counting, (old, new), later)
                 continue
             declared = runtime.ics.reading("number-in-use")
+            late = max(_late_by(runtime, (old, new), timer, [c.t for c in later]) for timer in (old, new))
             yield check.fail(
-                value or "lost",
+                value or ("late" if late else "lost"),
                 expected=f"timer {old.number} of '{phase.member.lane}', which is started again while it waits, "
                 + (
                     f"behaves as declared: {declared}"
@@ -154,6 +155,7 @@ def number_in_use(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 observed=f"it did as under '{value}'" if value else "it did not, for either start",
                 at=(*at_of(old, *later), *(() if value else noticed(runtime, latest(runtime, new, 0)))),
                 requirement=_NUMBERS,
+                late_by=0 if value else late,
             )
 
 
@@ -193,6 +195,26 @@ def _reading_of_use(runtime: ObservedRuntime, old: Timer, new: Timer, came: Sequ
     if new.call.reply is not None and new.call.reply.failed:
         return "refuse" if served[0] else ""
     return {(True, True): "both", (False, True): "replace", (True, False): "keep"}.get((served[0], served[1]), "")
+
+
+def _late_by(runtime: ObservedRuntime, timers: tuple[Timer, Timer], timer: Timer, came: Sequence[int]) -> int:
+    """Nanoseconds by which callbacks of ``timer`` came late that did not come in time; 0 if one of them did not come at all.
+
+    A callback that any of the two ``timers`` was due to give in time is not a late one.
+    """
+    new = timers[1]
+    due_times = [times for one in timers for times in _times_after(runtime, one, new)]
+    spare = [moment for moment in came if not any(due <= moment <= last for due, last in due_times)]
+    most = 0
+    for due, last in _times_after(runtime, timer, new):
+        if any(due <= moment <= last for moment in came):
+            continue
+        late = next((moment for moment in spare if moment > last), None)
+        if late is None:
+            return 0
+        spare.remove(late)
+        most = max(most, late - last)
+    return most
 
 
 def _times_after(runtime: ObservedRuntime, timer: Timer, new: Timer) -> list[tuple[int, int]]:

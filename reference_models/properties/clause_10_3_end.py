@@ -158,8 +158,21 @@ def timers_wait_no_longer(check: Property, runtime: ObservedRuntime) -> Conclusi
         if paused and any(phase.of.ended_at < due < paused[-1] for due in dues):
             yield check.kept(PHASES[phase.kind])
         if following:
-            lasting = [t for t in waiting if t.waits(phase.of.closed)]  # another container may have been stopped first
+            lasting = [
+                t
+                for t in waiting
+                if t.waits(phase.of.closed)  # another container may have been stopped first
+                and not _may_never_come(runtime, t)
+            ]
             yield from _after_restart(check, runtime, phase, following[0], lasting)
+
+
+def _may_never_come(runtime: ObservedRuntime, timer: Timer) -> bool:
+    """Is it one of those that are ignored by what may hold?"""
+    unusual = (("zero-delay", timer.has_no_delay), ("timer-in-startup", timer.is_in_startup))
+    return any(
+        is_so and runtime.ics.permits(option_of(runtime, timer.kind, name), "ignored") for name, is_so in unusual
+    )
 
 
 def _after_restart(

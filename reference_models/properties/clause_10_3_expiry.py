@@ -207,6 +207,7 @@ def _untimely(
             *(noticed(runtime, latest(runtime, timer, number)) if by is None else ()),
         ),
         requirement=requirement,
+        late_by=by or 0,
     )
 
 

@@ -74,6 +74,7 @@ def _dated(check: Property, runtime: ObservedRuntime, phase: TimerPhase, timer: 
                 expected=f"{expected}, or as much later as timer-lateness says",
                 observed=f"the clock showed {shown(min(over))} more",
                 at=at_of(timer, callback),
+                late_by=min(over) - lateness(runtime),
             )
         else:
             yield check.kept()
@@ -136,6 +137,7 @@ def _at_once(check: Property, runtime: ObservedRuntime, timer: Timer, due: int |
             observed=f"it called back {shown(callback.t - limit)} later than timer-lateness permits",
             at=at_of(timer, callback),
             requirement=LATE[timer.kind],
+            late_by=callback.t - limit,
         )
 
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.data_types import Integer
-from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.platform_interfaces import REQUEST_DATA, RESPONSE_DATA
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.extended_links import changes_between, overdue_since
+from ucm_cts.reference_models.model.extended_links import changes_between, overdue_since, value_shown
 from ucm_cts.reference_models.model.messages import OK
 from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -22,6 +21,9 @@ _MENDED = "R-10.4.1.1-35"
 _CARRIES, _WAITS, _RETURNS, _AS_SERVICES = "R-10.4.1.2-01", "R-10.4.1.2-02", "R-10.4.1.2-03", "R-10.4.1.2-04"
 _GOES_ON, _REACHES = "R-10.4.1.2-05", "R-10.4.1.2-06"
 _SEVERAL, _UNANSWERED, _APART, _HANGING = "R-10.4.1.2-14", "R-10.4.1.2-15", "R-10.4.1.2-20", "R-10.4.1.2-21"
+
+_SOON = 100_000_000
+"""Nanoseconds. No connector gives up a request after so short a time, unless something is wrong."""
 
 _PLAIN = Integer("LONG")
 """The type of which a value that is lost is not lost for its type's sake."""
@@ -65,8 +67,8 @@ def _others_are_served(found: Requests, asked: Asked) -> bool:
 def _altered(check: Property, runtime: ObservedRuntime, found: Requests, asked: Asked, entry: Received) -> Finding:
     plain = _types(runtime, found)[0] == _PLAIN
     requirement = (_CARRIES if asked.waits else _REACHES) if plain else _TYPES
-    expected = f"reaches the server as {_shown(asked.value)}"
-    return _violate(check, requirement, "altered", asked, expected, f"the server got {_shown(entry.value)}")
+    expected = f"reaches the server as {value_shown(asked.value)}"
+    return _violate(check, requirement, "altered", asked, expected, f"the server got {value_shown(entry.value)}")
 
 
 @property_at("closed", _REACHES, _SEVERAL, _UNANSWERED, _CARRIES, timed=True, feature="extended")
@@ -121,12 +123,12 @@ def response_awaited(check: Property, runtime: ObservedRuntime) -> Conclusions:
             first = min((a.moment for a in asked.answers), default=NEVER)
             left = asked.entries[0].delivery.exit
             if left is not None and left.failed and left.n < reply.n:
-                observed = f"it came back with {_shown(asked.given)} and ok"
+                observed = f"it came back with {value_shown(asked.given)} and ok"
                 expected = "does not end with ok: its server raised an exception"
                 yield _violate(check, _AS_SERVICES, "swallowed", asked, expected, observed)
                 continue
             if first > reply.n:
-                observed = f"it came back with {_shown(asked.given)} before the server had answered"
+                observed = f"it came back with {value_shown(asked.given)} before the server had answered"
                 expected = "comes back when the server has answered"
                 yield _violate(check, _WAITS, "early", asked, expected, observed)
                 continue
@@ -152,7 +154,18 @@ def response_returned(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if len(entries) != 1 or entries[0].fit != "same":
                 continue
             answers = [a for a in asked.answers if a.moment < reply.n]
-            if not is_sound(runtime, asked, reply.n) or not answers:
+            if not is_sound(runtime, asked, reply.n):
+                continue
+            if not answers:
+                if not asked.is_ok and not fails(entries[0].server) and reply.t - asked.call.request.t < _SOON:
+                    yield _violate(
+                        check,
+                        _CODES,
+                        "given up",
+                        asked,
+                        "waits for its response: nothing is wrong",
+                        f"it gave {_got(asked)}",
+                    )
                 continue
             server, first = entries[0].server, answers[0]
             if not asked.is_ok:
@@ -160,9 +173,9 @@ def response_returned(check: Property, runtime: ObservedRuntime) -> Conclusions:
             elif asked.given != first.value:
                 others = [a for a in found.answers if a.value == asked.given and a.to is not first.to]
                 plain = others or _types(runtime, found)[1] == _PLAIN
-                observed = f"it got {_shown(asked.given)}"
+                observed = f"it got {value_shown(asked.given)}"
                 observed += f", which was for '{asker(others[0].asked)}'" if others else ""
-                expected = f"gets {_shown(first.value)}, which the server gave"
+                expected = f"gets {value_shown(first.value)}, which the server gave"
                 cause = "another's" if others else "other"
                 yield _violate(check, _RETURNS if plain else _TYPES, cause, asked, expected, observed)
             else:
@@ -249,7 +262,7 @@ def request_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
             hangs = reply is None and is_left_hanging(runtime, asked.call.business.worker, request.n)
             if ending and reply is not None:
                 if asked.is_ok and not any(a.moment < reply.n and a.value == asked.given for a in asked.answers):
-                    observed = f"it came back with {_shown(asked.given)}"
+                    observed = f"it came back with {value_shown(asked.given)}"
                     yield _violate(check, _HANGING, "invented", asked, "ends without an invented response", observed)
                 else:
                     yield check.kept(_HANGING)
@@ -276,7 +289,7 @@ def servers_uncalled(check: Property, runtime: ObservedRuntime) -> Conclusions:
             yield check.fail(
                 "another connection" if elsewhere else "invented",
                 expected=f"'{lane(*enter.body)}' gets what clients of {found.link.name} ask, and nothing else",
-                observed=f"it got {_shown(received.value)}, {'asked through another connection' if elsewhere else 'which nobody asked'}",
+                observed=f"it got {value_shown(received.value)}, {'asked through another connection' if elsewhere else 'which nobody asked'}",
                 at=(enter.n,),
                 requirement=requirement,
             )
@@ -287,10 +300,6 @@ def _types(runtime: ObservedRuntime, found: Requests) -> tuple[object, object]:
     return types[REQUEST_DATA], types[RESPONSE_DATA]
 
 
-def _shown(value: object) -> str:
-    return printed([value], 200)[1:-1]
-
-
 def _violate(check: Property, requirement: str, cause: str, asked: Asked, expected: str, observed: str) -> Finding:
     request, reply = asked.call.request, asked.call.reply
     client = lane(*request.body)
@@ -299,7 +308,7 @@ def _violate(check: Property, requirement: str, cause: str, asked: Asked, expect
     server = lane(*entered[0].body) if entered else targets[0] if targets else "server"
     return check.fail(
         cause,
-        expected=f"the request {_shown(asked.value)} of '{asker(asked)}' {expected}",
+        expected=f"the request {value_shown(asked.value)} of '{asker(asked)}' {expected}",
         observed=observed,
         at=(request.n, *(e.n for e in entered), *((reply.n,) if reply is not None else ())),
         instead=(Arrow(client, server, "request"), Arrow(server, client, "response")),

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract.data_types import Integer
-from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.platform_interfaces import RESPONSE_DATA
 from ucm_cts.adapters.contract.scenario import Stop
 from ucm_cts.adapters.contract.trace import Return
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import execution_policies as policies
-from ucm_cts.reference_models.model.extended_links import changes_between, overdue_since
+from ucm_cts.reference_models.model.extended_links import changes_between, overdue_since, value_shown
 from ucm_cts.reference_models.model.messages import INTERNAL_ERROR, OK
 from ucm_cts.reference_models.model.method_calls import NEVER
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -55,8 +54,8 @@ def _judged(
         yield _violate(check, _ASKER, "another's", callback, "gets responses to its own requests", observed)
     elif callback.fit == "altered" and answer is not None:
         plain = runtime.scenario.types[found.link.interface][RESPONSE_DATA] == _PLAIN
-        expected = f"gets {_shown(answer.value)} as the server gave it"
-        observed = f"got {_shown(callback.value)}"
+        expected = f"gets {value_shown(answer.value)} as the server gave it"
+        observed = f"got {value_shown(callback.value)}"
         yield _violate(check, _COMES if plain else _TYPES, "altered", callback, expected, observed)
     else:
         unknown = [a for a in found.answers if a.to is None and a.value == callback.value]
@@ -64,7 +63,7 @@ def _judged(
         elsewhere = any(a.value == callback.value for a in others)
         requirement = _UNKNOWN if unknown else _APART if elsewhere else _COMES
         cause = "unknown request" if unknown else "another connection" if elsewhere else "invented"
-        observed = f"got {_shown(callback.value)}"
+        observed = f"got {value_shown(callback.value)}"
         observed += (
             ", given for an identifier that was not open"
             if unknown
@@ -115,7 +114,7 @@ def response_missing(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 for requirement in broken:
                     yield check.fail(
                         "never",
-                        expected=f"the response {_shown(answer.value)} to '{asker(asked)}' comes to it",
+                        expected=f"the response {value_shown(answer.value)} to '{asker(asked)}' comes to it",
                         observed="it did not",
                         at=(asked.call.request.n, answer.moment),
                         requirement=requirement,
@@ -140,7 +139,7 @@ def identifiers_pair(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if asked.given == callback.number:
                 yield check.kept(_PAIRED)
             else:
-                expected = f"gets {_shown(callback.value)} with {asked.given}, the identifier of its request"
+                expected = f"gets {value_shown(callback.value)} with {asked.given}, the identifier of its request"
                 yield _violate(check, _PAIRED, "another", callback, expected, f"got it with {callback.number}")
         for answer in found.answers:
             asked = answer.asked
@@ -309,10 +308,6 @@ def no_response_after_stop(check: Property, runtime: ObservedRuntime) -> Conclus
 
 def _was_open(asked: Asked, moment: int) -> bool:
     return asked.is_ok and not asked.waits and asked.call.over < moment < _over(asked) and bool(asked.entries)
-
-
-def _shown(value: object) -> str:
-    return printed([value], 200)[1:-1]
 
 
 def _violate(

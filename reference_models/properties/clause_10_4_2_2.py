@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.data_values import printed
 from ucm_cts.adapters.contract.platform_interfaces import CANCEL
 from ucm_cts.adapters.contract.scenario import Start
 from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.extended_links import value_shown
 from ucm_cts.reference_models.model.method_calls import NEVER, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.shared_data import all_shared_data, changes
@@ -323,7 +323,7 @@ def readers_agree(check: Property, runtime: ObservedRuntime) -> Conclusions:
         explained = all(one.value in current for one in final)
         if explained and not (yield from takes(runtime, "concurrent-publications", "free")):
             different = next(one for one in final if one.value != final[0].value)
-            expected = f"gives {_shown(final[0].value)}, as that of another reader did: all agree, as declared"
+            expected = f"gives {value_shown(final[0].value)}, as that of another reader did: all agree, as declared"
             yield _violate(check, _AGREE, "different", different, expected, _got(different))
 
 
@@ -334,19 +334,15 @@ def _is_final(one: Reading) -> bool:
 
 
 def _values(view: View) -> str:
-    return " or ".join(dict.fromkeys(map(_shown, view.values))) or "no value"
+    return " or ".join(dict.fromkeys(map(value_shown, view.values))) or "no value"
 
 
 def _got(one: Reading) -> str:
-    return f"gave {_shown(one.value)}"
+    return f"gave {value_shown(one.value)}"
 
 
 def _result(one: Reading) -> str:
-    return f"{one.call.code_of_results} and {_shown(one.value)}"
-
-
-def _shown(value: object) -> str:
-    return printed([value], 200)[1:-1]
+    return f"{one.call.code_of_results} and {value_shown(one.value)}"
 
 
 def _violate(

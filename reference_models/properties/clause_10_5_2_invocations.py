@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Return
 from ucm_cts.reference_models.conclusions import Conclusions, takes
@@ -191,6 +193,7 @@ def _untimely(check: Property, phase: PacedPhase, worst: pacing.Untimely, requir
         observed=f"it was executed {shown(worst.by)} too early, under every reading that may hold",
         at=(*before, worst.execution.enter.n),
         requirement=requirement,
+        late_by=worst.late_by,
     )
 
 
@@ -207,7 +210,7 @@ def sporadic_apart(check: Property, runtime: ObservedRuntime) -> Conclusions:
         for executions in pacing.groups(runtime, phase):
             close = pacing.too_close(runtime, phase, executions)
             if close is None:
-                if pacing.in_burst(executions, phase.period):
+                if pacing.in_burst(executions, phase.period) or _has_turned_away(runtime, phase, executions):
                     yield check.kept()
                 if phase.number and executions:
                     yield check.kept(_RESTARTS)
@@ -218,7 +221,15 @@ def sporadic_apart(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 observed=f"one came {shown(close.by)} too early",
                 at=(*((close.after.enter.n,) if close.after is not None else ()), close.execution.enter.n),
                 requirement=of_phase(phase, _APART),
+                late_by=close.late_by,
             )
+
+
+def _has_turned_away(runtime: ObservedRuntime, phase: PacedPhase, executions: Sequence[PacedExecution]) -> bool:
+    """Was a call that came too early refused or dropped, as is declared?"""
+    if not executions or runtime.ics.reading("early-invocation") not in ("refused", "dropped"):
+        return False
+    return any(not one.executions and _is_early(phase, one) for one in phase.invocations if one.over < phase.until)
 
 
 @property_at("closed", _AT_ONCE, _NO_SUM, _RESTARTS, feature="paced", timed=True)
@@ -246,4 +257,5 @@ def _late(check: Property, phase: PacedPhase, execution: PacedExecution, late: i
         observed=f"it was executed {shown(late)} later than timer-lateness permits",
         at=(*asked, execution.enter.n),
         requirement=requirement,
+        late_by=late,
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Return
 from ucm_cts.reference_models.conclusions import Conclusions
@@ -78,7 +80,17 @@ def runs_at_the_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
             expected=f"'{phase.member.lane}' runs each {shown(phase.period)}",
             observed=f"the mean distance of {len(runs)} runs was {shown(mean)}",
             at=(runs[0].enter.n, runs[-1].enter.n),
+            late_by=_late_among(runtime, phase, runs, mean),
         )
+
+
+def _late_among(runtime: ObservedRuntime, phase: PacedPhase, runs: Sequence[PacedExecution], mean: float) -> int:
+    """By how much the last of ``runs`` came later than it may, or the first one if that makes their mean distance too short; 0 if none did."""
+    off = round((mean - phase.period) * (len(runs) - 1))
+    if off >= 0:
+        return max(0, off - lateness(runtime))
+    too_short = -off - lateness(runtime)
+    return too_short if runs[0].t - _latest(runtime, phase, 0) >= too_short else 0
 
 
 @property_at("closed", _FIRST, _REPEATS, _GOES_ON, _RESTARTS, feature="paced", timed=True)
@@ -87,7 +99,7 @@ def runs_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
     for phase in paced_phases(runtime, s.PERIODIC_SELF_EXECUTING):
         runs, late = phase.executions, lateness(runtime)
         if runs and runs[0].t > _latest(runtime, phase, 0) + late:
-            yield _late(check, phase, runs[0], 0, of_phase(phase, _FIRST))
+            yield _late(check, runtime, phase, 0, of_phase(phase, _FIRST))
             continue
         if runs:
             yield check.kept(_FIRST)
@@ -97,7 +109,7 @@ def runs_in_time(check: Property, runtime: ObservedRuntime) -> Conclusions:
         for k, run in enumerate(runs[1:], 1):
             if run.t > _latest(runtime, phase, k) + late:
                 on_grid = k <= phase.overrun
-                yield _late(check, phase, run, k, of_phase(phase, _REPEATS if on_grid else _GOES_ON))
+                yield _late(check, runtime, phase, k, of_phase(phase, _REPEATS if on_grid else _GOES_ON))
                 break
         else:
             raised = phase.member.raises("run")  # whether a run follows one that raised is not judged
@@ -130,13 +142,15 @@ def _latest(runtime: ObservedRuntime, phase: PacedPhase, k: int) -> int:
     return max(grid, before.left)
 
 
-def _late(check: Property, phase: PacedPhase, run: PacedExecution, k: int, requirement: str) -> Finding:
+def _late(check: Property, runtime: ObservedRuntime, phase: PacedPhase, k: int, requirement: str) -> Finding:
+    run = phase.executions[k]
     return check.fail(
         "late",
         expected=f"run {k} of '{phase.member.lane}' begins when offset and period say, or as much later as declared",
         observed=f"it began {shown(run.t - phase.first(latest=True))} after the first instant, and the period is {shown(phase.period)}",
         at=(phase.begin, run.enter.n),
         requirement=requirement,
+        late_by=run.t - _latest(runtime, phase, k) - lateness(runtime),
     )
 
 
@@ -222,6 +236,7 @@ def background_runs_once(check: Property, runtime: ObservedRuntime) -> Conclusio
                 observed=f"it came {shown(came - latest)} later" if runs else "it was not",
                 at=(phase.begin, *(run.enter.n for run in runs)),
                 requirement=of_phase(phase, _BACKGROUND_LATE),
+                late_by=came - latest - lateness(runtime) if runs else 0,
             )
             continue
         if runs:

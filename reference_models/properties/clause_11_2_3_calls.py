@@ -8,7 +8,7 @@ from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.designation import error_name
-from ucm_cts.reference_models.model.execution_policies import call_guarantees, extended_policy
+from ucm_cts.reference_models.model.execution_policies import call_guarantees, extended_policy, protection_of
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, connections_behind
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
@@ -132,11 +132,38 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
             return ()
     if not reply.raised:
         return check.kept()
+    if any(_is_in_a_circle(call, caller, provider) for provider in providers):
+        return ()  # what becomes of calls that come back to a component that may be protected is open (protected-recursion)
     handed_over = [c for c in connections_behind(caller, request.port) if c in (caller.handed_over or ())]
     if not handed_over or any(connection.live is not True for connection in handed_over):
         return ()  # the body calls through what it got at its start, and that connection has been undone
     expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
     return _violate(check, check.stands_for[0], "refused", expected, "the call raised", call.n, reply.n, providers[0])
+
+
+def _is_in_a_circle(call: BusinessCall, caller: Member, provider: Member) -> bool:
+    """Does the call come back to a component that waits for it, or may it, where it is not known who waits?"""
+    if protection_of(provider.declaration) == "unprotected":
+        return False
+    return call.leads_back_to(provider) if call.caller is not None else _reaches(provider, caller)
+
+
+def _reaches(client: Member, goal: Member) -> bool:
+    """Do calls that bodies make when they are called lead from ``client`` to ``goal``?"""
+    known, waiting = {id(client)}, [client]
+    while waiting:
+        member = waiting.pop()
+        if member is goal:
+            return True
+        called = {a.port for a in member.declaration.plan.get("exchange", ()) if isinstance(a, s.CallPort)}
+        for connection in member.connections:
+            provider = connection.provider
+            if provider is None or connection.live is False or connection.port not in called:
+                continue
+            if id(provider) not in known:
+                known.add(id(provider))
+                waiting.append(provider)
+    return False
 
 
 @property_at("called", _DISABLED, at=("body", "framework"))

@@ -8,6 +8,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.model.links import LinkState, differ, interface_of, is_misfit
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import Connection
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _COMPATIBLE = "R-11.2.3-18"
@@ -46,13 +47,34 @@ def _misfit(runtime: ObservedRuntime, ongoing: OperationInProgress) -> tuple[str
     """
     for member in ongoing.container.live_members():
         for connection in member.connections:
-            if connection.live is not False and is_misfit(connection):
+            if connection.live is not False and _is_surely_misfit(runtime, connection):
                 return f"{connection.port} of '{member.lane}'", ()
     for link in runtime.interactions.improper(ongoing.container):
         for end in link.misfits:
-            if end.member.container is ongoing.container:
+            own = interface_of(end.member, end.port)
+            required, provided = (own, link.interface) if end in link.senders else (link.interface, own)
+            if end.member.container is ongoing.container and not _offers_all(runtime, required, provided):
                 return f"{end.port} of '{end.member.lane}'", (end.since,)
     return "", ()
+
+
+def _is_surely_misfit(runtime: ObservedRuntime, connection: Connection) -> bool:
+    """Have its ends different interfaces, and does the provided one lack a method of the required one?"""
+    provider = connection.provider
+    if provider is None or not is_misfit(connection):
+        return False
+    required, provided = interface_of(connection.client, connection.port), interface_of(provider, connection.provided)
+    return not _offers_all(runtime, required, provided)
+
+
+def _offers_all(runtime: ObservedRuntime, required: str, provided: str) -> bool:
+    """Has the interface ``provided`` the same methods as ``required``, or does it inherit them (9.2.7.1)? Connecting these may be right."""
+    wanted, offered = (runtime.scenario.interfaces.get(name) for name in (required, provided))
+    if wanted is None or offered is None or not wanted.methods.items() <= offered.methods.items():
+        return False
+    return len(wanted.methods) == len(offered.methods) or 0 < len(wanted.methods.keys() & {*offered.inherited}) == len(
+        wanted.methods
+    )
 
 
 @property_at("linked", _COMPATIBLE)

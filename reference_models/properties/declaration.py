@@ -95,6 +95,7 @@ class Property:
         during: tuple[Ongoing, Enter] | None = None,
         instead: tuple[Arrow, ...] = (),
         requirement: str = "",
+        late_by: int = 0,
     ) -> Finding:
         """The requirement was violated; without ``requirement`` the first one. The others are the fields of ``Finding``:
         ``event`` (one event about a step), ``ended`` (an operation with its end) and ``during`` (a callback in an operation,
@@ -106,7 +107,8 @@ class Property:
             at, step = (ended.call, ended.end.n), ended.step_number
         elif during is not None:
             at, step = (during[1].n,), during[0].step_number if during[0] is not None else None
-        return Finding(requirement or self.stands_for[0], self.name, cause, expected, observed, at, step, instead)
+        violated = requirement or self.stands_for[0]
+        return Finding(violated, self.name, cause, expected, observed, at, step, instead, late_by=late_by)
 
     def refused(
         self, operation: str, end: Raise, *, expected: str, cause: str = "refused", requirement: str = ""

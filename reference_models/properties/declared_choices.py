@@ -82,7 +82,10 @@ def _is_choice(ongoing: OperationInProgress, end: Result, member: Member | None,
     """Was the framework free to go another way, and is nothing but this choice the reason that it went this one?"""
     if row.operation == "remove_provider":  # it goes the way that the provider goes
         return True
+    hidden = (*ongoing.open_options, *(ongoing.open_if_refused if isinstance(end, Raise) else ()))
     for option in _options(fit):
+        if option in hidden:
+            return False
         if option == "manager-start":  # what is no start or stop of the manager's own has nothing to reach
             return ongoing.container.started is (ongoing.operation == "stop")
         if option == "stop-when-stopped":

@@ -1,6 +1,9 @@
-"""Calls that wait when a component paced by 10.5.2 is stopped."""
+"""Calls that wait when a component paced by 10.5.2 is stopped, and executions that are too close because the first one was late."""
 
 from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
 
 import msgspec
 import pytest
@@ -8,6 +11,7 @@ import pytest
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.reference_models.model import pacing
 from ucm_cts.reference_models.monitor import Monitor
 
 _MS = 1_000_000
@@ -69,3 +73,56 @@ def _trace(leaves_at: int) -> list[t.Event]:
 def test_a_call_waits_on_while_the_component_executes_another(leaves_at: int, found: list[str]) -> None:
     verdicts = Monitor(load_life_cycle()).judge(_SCENARIO, _trace(leaves_at))
     assert [finding.cause for finding in verdicts.findings if finding.requirement == "R-10.5.2-20"] == found
+
+
+def _phase(definition: str) -> Any:
+    """The first instant is at 20 ms, each further one 50 ms later."""
+    return SimpleNamespace(
+        policy=SimpleNamespace(definition=definition),
+        period=50 * _MS,
+        first=lambda latest: 20 * _MS,
+        busy_since=lambda moment, limit: moment,
+    )
+
+
+def _executions(*asked_and_came: tuple[float, float]) -> Any:
+    return [SimpleNamespace(asked=round(asked * _MS), t=round(came * _MS), left=0) for asked, came in asked_and_came]
+
+
+@pytest.mark.parametrize(
+    ("executions", "late"),
+    [
+        ([(0, 0), (0, 50), (0, 70)], 0),  # the second came in time: the third is early itself
+        ([(0, 30), (0, 60)], 7),  # the first was late
+        ([(0, 0), (0, 80), (0, 110)], 7),
+        ([(0, 0), (0, 52), (0, 80)], 0),  # not as late as the next one is close
+    ],
+)
+def test_sporadic_executions_are_too_close_by_the_lateness_of_the_first(
+    executions: list[tuple[float, float]], late: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pacing, "granularity", lambda runtime: _MS // 2)
+    runtime: Any = SimpleNamespace(ics=SimpleNamespace(reading=lambda option: ""))
+    close = pacing.too_close(runtime, _phase(s.SPORADIC_ACTIVE), _executions(*executions))
+    assert close is not None
+    assert close.late_by // _MS == late
+
+
+@pytest.mark.parametrize(
+    ("executions", "late"),
+    [
+        ([(0, 21), (0, 40)], 0),  # the instant was served
+        ([(0, 50), (0, 75)], 25),  # the first was late for its instant
+        ([(0, 65), (0, 75)], 0),  # the first was early for the next instant
+        ([(0, 19.8), (0, 40)], 0),
+    ],
+)
+def test_periodic_executions_that_are_early_for_an_instant_may_be_late_for_the_one_before(
+    executions: list[tuple[float, float]], late: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pacing, "granularity", lambda runtime: _MS // 2)
+    monkeypatch.setattr(pacing, "lateness", lambda runtime: 5 * _MS)
+    runtime: Any = SimpleNamespace(ics=SimpleNamespace(reading=lambda option: ""))
+    early = pacing.too_early(runtime, _phase(s.PERIODIC_ACTIVE), _executions(*executions), "one-a-period")
+    assert early is not None
+    assert early.late_by // _MS == late

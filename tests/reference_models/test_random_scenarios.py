@@ -12,6 +12,7 @@ import msgspec
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from performing import gist
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -29,7 +30,6 @@ from ucm_cts.harness.exploring.writer import scenarios
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.statement.applicability import fitting
-from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
@@ -181,11 +181,6 @@ def test_findings_depend_on_the_trace_alone_and_not_on_names(scenario: Scenario,
         assert Monitor(load_life_cycle()).judge(disguised, trace).findings == findings
         revealed = tuple(disguise.reveal(event) for event in trace)
         assert gist(the_monitor().judge(scenario, revealed).findings) == gist(findings)
-
-
-def gist(findings: Sequence[Finding]) -> list[object]:
-    """What findings say, but for names."""
-    return [(f.requirement, f.rule, f.events, f.step) for f in findings]
 
 
 def mutated(trace: Trace, mutations: Sequence[Mutation]) -> Trace:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Any
 
 import msgspec
@@ -15,11 +16,17 @@ from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.execution.confirmation import is_timed
 from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
 from ucm_cts.reference_models.verdicts import Verdicts
 
 SINK = {"provides": ["in"]}
 SOURCE = {"requires": ["out"], "connectable": True}
+
+
+def gist(findings: Sequence[Finding]) -> list[object]:
+    """What findings say, but for names."""
+    return [(f.requirement, f.rule, f.events, f.step) for f in findings]
 
 
 def scenario(components: dict[str, Any], steps: list[str], patience: int = 2000) -> Scenario:

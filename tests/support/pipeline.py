@@ -24,7 +24,7 @@ from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
-from ucm_cts.harness.hosting.hosts import waits
+from ucm_cts.harness.hosting.pace import waits
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant

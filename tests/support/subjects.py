@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import threading
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -21,6 +22,7 @@ from ucm_cts.adapters.mutants.python.registry import Base, bind
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.framework import ContainerManager
 from ucm_cts.adapters.reference.python.members import Failures, Member
+from ucm_cts.adapters.reference.python.timers import Timer
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:
@@ -230,6 +232,21 @@ class Forgets(Base):
 
 
 Forgetful = bind("Forgetful", Forgets)
+
+
+class Dawdles(Base):
+    """Calls back half a second after a timer has expired, while it may dawdle."""
+
+    left = 0
+
+    def _call_back(self, member: Member, timer: Timer) -> None:
+        if Dawdles.left > 0:
+            Dawdles.left -= 1
+            time.sleep(0.5)
+        super()._call_back(member, timer)
+
+
+Dawdling = bind("Dawdling", Dawdles)
 
 
 class Slips(Base):

@@ -190,6 +190,7 @@ class Container(SchedulesTimers, UsesExtensions):
         self.is_started = True
         for member in self.started:
             self._open_entrances(member)
+        for member in self.started:  # they may call and push at once
             self._begin_execution(member)
 
     def _shut_down_started(self, failures: Failures) -> None:

@@ -21,6 +21,7 @@ from ucm_cts.adapters.sdk.python.data import (
     is_datum,
     named,
     overwrite,
+    overwrite_parts,
     read_connections,
     snapshot,
 )
@@ -362,8 +363,10 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             wrong, results = in_words(results), ()
         elif not isinstance(exception, str | None):
             wrong, exception = f"an exception called {in_words(exception)}", None
-        self._record(t.Reply, port=action.port, results=snapshot(results), exception=exception, wrong=wrong)
-        return () if exception is not None else snapshot(results)
+        given = snapshot(results)
+        self._record(t.Reply, port=action.port, results=given, exception=exception, wrong=wrong)
+        overwrite_parts(results)  # they are the caller's own
+        return () if exception is not None else given
 
     def _reply_with_timer(self, action: s.CallMethod, results: Sequence[Any]) -> None:
         """A scheduler has returned: a timer, nothing, or anything else."""

@@ -21,6 +21,9 @@ _SAMPLES = 5
 _BETWEEN_SAMPLES = 0.0005
 """Seconds. The sampling thread releases the interpreter's lock meanwhile, so that a thread that only waits for that lock wakes up."""
 
+FAREWELL = 0.4
+"""Seconds that workers have at least to end, in all: on a busy machine a thread may need longer than a short patience."""
+
 _ASLEEP = re.compile(r"^State:\s+S.*^voluntary_ctxt_switches:\s+(\d+)", re.MULTILINE | re.DOTALL)
 
 
@@ -109,7 +112,7 @@ class Workers(metaclass=KeptClass):
 
     def finish(self) -> tuple[str, ...]:
         """End all workers; returns the names of those that did not come back in time. Queue nothing afterwards."""
-        deadline = monotonic() + self._patience
+        deadline = monotonic() + max(self._patience, FAREWELL)
         stuck = []
         for name, worker in self._workers.items():
             worker.quit()

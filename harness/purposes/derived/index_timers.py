@@ -174,6 +174,8 @@ def _cancel() -> TestPurpose:
     for which, order, afterwards in (("one", sporadic(5, 1, 1), 0.2), ("a periodic one", periodic(5, 1, 1, 1), 2.2)):
         held = timed(order, s.HoldAtGate(INSIDE), cancel(5, 1), policies=(PASSIVE, TIMERS))
         cases.append((f"of {which} that waits for its component", alone(held, *while_held(1500, afterwards))))
+    anew = timed(sporadic(5, 1), s.HoldAtGate(INSIDE), cancel(5), sporadic(5, 2), policies=(PASSIVE, TIMERS))
+    cases.append(("of one that waits for its component, and started anew", alone(anew, *while_held(1500, 2))))
     large = [
         order for number in _LARGE for order in (sporadic(number, 1, 1), cancel(number, 2), is_canceled(number, 3))
     ]

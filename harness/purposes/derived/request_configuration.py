@@ -259,6 +259,11 @@ class Configuration(ConnectionSteps):
         self.steps.append(s.OpenGate(gate))
         return self
 
+    def remove_server(self) -> Configuration:
+        """Detach and remove the server, which is called so; all are stopped."""
+        self.steps += [s.Detach(self.link, "server", _PORT), s.RemoveComponent("server")]
+        return self
+
     def remove(self, number: int) -> Configuration:
         """Detach and remove a client; all are stopped."""
         name = f"client {number}"

@@ -62,6 +62,7 @@ def request_purposes() -> list[TestPurpose]:
         _stored(),
         _waiting(),
         _types(),
+        _overwritten(),
         _servers(),
         _identifiers(),
         _apart(),
@@ -166,13 +167,34 @@ def _types() -> TestPurpose:
     return _purpose("types", text, "1-33 2-01 2-03 2-06 2-07", scenarios)
 
 
+def _overwritten() -> TestPurpose:
+    """A client overwrites what it asked while its server is held, a server what it answered while its client is."""
+    scenarios = []
+    for name in ("structure", "array"):
+        of, value = _TYPES[name]
+        for server in KINDS:
+            made = Configuration(types=(of, of), values=((value,), (value,))).server(server, held=True, fixed=True)
+            made.clients((ASYNCHRONOUS,), 2).start(held=True).ask_apart(0).at_gate().join(0).open(INSIDE).answered(2)
+            scenarios.append((f"{name}, request to a held {server} server", made.end()))
+        made = Configuration(types=(of, of), values=((value,), (value,))).server(ASYNCHRONOUS, fixed=True)
+        made.clients((ASYNCHRONOUS,), 1, policies=(Policy(s.PROTECTED_PASSIVE),), holds=True).start(held=True)
+        made.ask_apart(0).at_gate().entered(1).pause(_QUIET).open(INSIDE).join(0).answered(1)
+        scenarios.append((f"{name}, response to a held client", made.end()))
+    text = "Requests and responses are overwritten when the call is over that gave them away."
+    return _purpose("overwritten", text, "1-33", scenarios)
+
+
 def _servers() -> TestPurpose:
     """A second server, of the same or the other kind, is refused; without it the connection works."""
     scenarios = []
     for first, second in itertools.product(KINDS, KINDS):
         made = Configuration().server(first).server(second, name="other").clients((ASYNCHRONOUS,), 1).start()
         scenarios.append((f"{first} and {second} server", made.end()))
-    text = "A connection is to have two servers."
+    for first, second in itertools.product(KINDS, KINDS):
+        made = Configuration().server(first).clients((SYNCHRONOUS, ASYNCHRONOUS), 2).start().ask(0).ask(1).stop()
+        made.remove_server().server(second, name="other").start().ask(0).ask(1)
+        scenarios.append((f"{first} server, then another {second} one", made.end()))
+    text = "A connection is to have two servers, at once or one after the other."
     return _purpose("servers", text, "1-07 1-30", scenarios)
 
 

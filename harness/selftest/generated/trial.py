@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -71,7 +72,7 @@ def _try_out(adapter: str, statement: Statement, purposes: Sequence[TestPurpose]
     try:
         with Driver(locate(adapter), seed, Limits(incident_seconds=INCIDENT_SECONDS)) as driver:
             campaign = Campaign(driver, "core", (), statement)
-            confirmation = Confirmation(driver, Monitor(load_life_cycle(), statement.ics), driver.gaps)
+            confirmation = Confirmation(driver, Monitor(load_life_cycle(), statement.ics), driver.gaps, Counter())
             for checked in campaign.check(_in_small_parts(purposes)):
                 for finding, execution in checked.failures:
                     if execution.incident is not None:

@@ -13,6 +13,30 @@ SPARE = "spare_contracts"
 """The outermost module that ``spare`` adds to."""
 
 
+REFERENCES = (
+    "abstractType",
+    "actualType",
+    "annotationDefinition",
+    "api",
+    "connectorItem",
+    "definition",
+    "exception",
+    "extends",
+    "indexType",
+    "instanceOf",
+    "interactionItem",
+    "interface",
+    "pattern",
+    "portRole",
+    "refines",
+    "selectorType",
+    "technicalAspect",
+    "technicalPolicyDefinition",
+    "type",
+)
+"""Attributes that name what a module declares, or a part of that behind a dot."""
+
+
 def resolved(element: etree._Element, reference: str, *tags: str) -> etree._Element | None:
     """What ``reference`` means where ``element`` stands, if it has one of ``tags``; None if there is no such thing."""
     parts = reference.split("::")

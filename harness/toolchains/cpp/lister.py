@@ -218,10 +218,12 @@ class _Tree:
         """An enumeration whose declaration leaves the type of its values to the compiler; one that a macro writes is not judged."""
         if owner.kind != cindex.CursorKind.ENUM_DECL:
             raise NotThere("it is no enumeration")
-        written = [token.spelling for token in owner.get_tokens()]
+        if owner.is_scoped_enum():
+            return  # int, if it names none
+        written = ["{" if token.spelling == "<%" else token.spelling for token in owner.get_tokens()]
         if written[:1] != ["enum"] or "{" not in written:
             raise NotThere("its declaration is written by a macro")
-        if not owner.is_scoped_enum() and ":" not in written[: written.index("{")]:
+        if ":" not in written[: written.index("{")]:
             yield self._found("it names none", owner)
 
     def _defined(self, asked: Any) -> Iterator[Found]:

@@ -36,6 +36,9 @@ DEFINED = {
 STANDARD_VALUES = {"value", "default"}
 """Annotations of IDL itself that say the same as DefaultValue."""
 
+_NO_NUMBER = -(2**70)
+"""What an annotation gives whose value is no number: none that could be right."""
+
 KINDS = {
     "short": {"SHORT"},
     "long": {"LONG"},
@@ -187,9 +190,11 @@ def _kinds(vendor: Vendor, annotation: idl.Annotation, scope: Scope) -> set[str]
 
 
 def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
-    """Whether the values of enumerators follow from the IDL."""
-    if vendor.reading("idl-enumerator-values") not in ("observed", "default-value"):
-        raise NotExercised
+    """Whether the values of enumerators follow from the IDL.
+
+    If the vendor does not declare that they do, only those that are given are asked for.
+    """
+    is_asked = vendor.reading("idl-enumerator-values") in ("observed", "default-value")
     hit = here(vendor, fact.path, idl.Enum)
     enum = hit.entry.declaration
     assert isinstance(enum, idl.Enum)
@@ -201,6 +206,8 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
         one.name.lower(): before for before, one in zip((None, *enum.enumerators), enum.enumerators, strict=False)
     }
     annotated = any(number is not None for number, _ in shown.values())
+    if not is_asked and not annotated:
+        raise NotExercised
     wanted = dict(fact.values)
     wrong = []
     for name, value in wanted.items():
@@ -209,6 +216,8 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
         if key not in shown:
             continue
         number, enumerator = shown[key]
+        if not is_asked and number in (None, _NO_NUMBER):
+            continue
         before = previous[key]
         next_ = {position[key]}
         if before is not None:
@@ -222,13 +231,13 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
 
 
 def _number_of(declaration: idl.Declaration, scope: Scope, ways: set[str]) -> int | None:
-    """The number that an annotation gives; one whose value is no number gives none that could be right."""
+    """The number that an annotation gives."""
     for annotation in annotations_of(declaration):
         if last(annotation.name) in ways:
             value = _value(annotation, scope)
             if isinstance(value, str):
                 value = _parsed(value, scope)
-            return value if isinstance(value, int) and not isinstance(value, bool) else -(2**70)
+            return value if isinstance(value, int) and not isinstance(value, bool) else _NO_NUMBER
     return None
 
 

@@ -175,10 +175,10 @@ def labelled(vendor: Vendor, fact: exp.Labelled) -> list[Wrong]:
     union = here(vendor, fact.path[:-1], idl.Union).entry
     assert isinstance(case, idl.Case)
     assert isinstance(union.declaration, idl.Union)
-    wanted = {spelled(path[-1]).lower() for path in fact.labels}
     found = _chosen(case, union)
     if found is None:
         raise NotExercised
+    wanted = {vendor.like(path[-1], found | _others(case, union)) for path in fact.labels}
     default = None in case.labels
     right = found == wanted and not default
     if fact.default:
@@ -235,7 +235,7 @@ def templated(vendor: Vendor, fact: exp.Templated) -> list[Wrong]:
     module = hit.entry.declaration
     assert isinstance(module, idl.Module)
     found = {parameter.name.lower() for parameter in module.parameters}
-    names = {path: spelled(vendor.expected.abstract[path].name).lower() for path in fact.allowed}
+    names = {path: vendor.like(vendor.expected.abstract[path].name, found) for path in fact.allowed}
     required = {names[path] for path in fact.required}
     allowed = set(names.values())
     if fact.requirement == "R-12.7-12":
@@ -258,18 +258,21 @@ def parametrized(vendor: Vendor, fact: exp.Parametrized) -> list[Wrong]:
     hit = here(vendor, fact.path, idl.Module)
     module = hit.entry.declaration
     assert isinstance(module, idl.Module)
-    plain = spelled(vendor.expected.abstract[fact.parameter].name)
-    found = next((p for p in module.parameters if p.name.lower() == plain.lower()), None)
+    name = vendor.expected.abstract[fact.parameter].name
+    plain = spelled(name)
+    found = next((p for p in module.parameters if vendor.pattern(name).fullmatch(p.name)), None)
     if found is None:
         raise NotExercised
     if fact.keyword:
         right = found.kind == fact.keyword
         return [] if right else [Wrong(f"{fact.keyword} {plain.upper()}", f"{found.kind} {found.name}", found.place)]
-    spellings = {"upper": plain.upper(), "first": plain[:1].upper() + plain[1:]}
-    wanted = spellings.get(vendor.reading("idl-template-names"))
-    right = found.name == wanted if wanted else found.name in spellings.values()
-    vendor.met.setdefault("idl-template-names", set()).update(k for k, v in spellings.items() if v == found.name)
-    return [] if right else [Wrong(f"parameter {wanted or plain.upper()}", found.name, found.place)]
+    spellings = {"upper": name.upper(), "first": name[:1].upper() + name[1:]}
+    fitting = {key for key, one in spellings.items() if vendor.pattern(one, 0).fullmatch(found.name)}
+    wanted = vendor.reading("idl-template-names")
+    right = wanted in fitting if wanted in spellings else bool(fitting)
+    vendor.met.setdefault("idl-template-names", set()).update(fitting)
+    shown = spelled(spellings.get(wanted, name.upper()))
+    return [] if right else [Wrong(f"parameter {shown}", found.name, found.place)]
 
 
 def undeclared(vendor: Vendor, fact: exp.Undeclared) -> list[Wrong]:

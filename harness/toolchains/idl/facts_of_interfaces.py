@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from ucm_cts.harness.toolchains.idl.language.scopes import Hit, base_names, bases, resolve
@@ -89,7 +88,7 @@ def only(vendor: Vendor, fact: exp.Only) -> list[Wrong]:
     hit = here(vendor, fact.path, Interface)
     wanted = {id(found.entry) for name in fact.names if (found := vendor.inside(hit, name)) is not None}
     tolerated = tuple(spelled(name) for name in fact.tolerated)
-    patterns = [_pattern(re.sub(r"[-*]+", "*", one)) for one in fact.patterns]
+    patterns = [vendor.pattern(one) for one in fact.patterns]
     wrong = []
     for holder in (hit, *_superfluous(vendor, hit, fact)):
         for entry in holder.entry.inner.entries if holder.entry.inner is not None else ():
@@ -123,7 +122,7 @@ def inherits(vendor: Vendor, fact: exp.Inherits) -> list[Wrong]:
     hit = here(vendor, fact.path, Interface)
     base = vendor.at(fact.base)
     standard = len(fact.base) == 1
-    named = spelled(fact.base[-1]).lower() in base_names(hit)
+    named = any(map(vendor.pattern(fact.base[-1]).fullmatch, base_names(hit)))
     if base is None and not standard and not vendor.missing:
         raise NotExercised
     if any(one.entry is base.entry for one in bases(hit)) if base is not None else named:
@@ -156,10 +155,18 @@ def access(vendor: Vendor, fact: exp.Access) -> list[Wrong]:
 
 def operations(hit: Hit) -> Iterator[Hit]:
     """The operations of an interface, inherited ones too."""
+    return (one for one in _members(hit) if isinstance(one.entry.declaration, Operation))
+
+
+def attributes(hit: Hit) -> Iterator[Hit]:
+    """The attributes of an interface, inherited ones too."""
+    return (one for one in _members(hit) if isinstance(one.entry.declaration, Attribute))
+
+
+def _members(hit: Hit) -> Iterator[Hit]:
     for one in (hit, *bases(hit)):
         for entry in one.entry.inner.entries if one.entry.inner is not None else ():
-            if isinstance(entry.declaration, Operation):
-                yield Hit(entry, one.bound)
+            yield Hit(entry, one.bound)
 
 
 def _holder(vendor: Vendor, path: exp.Path, otherwise: exp.Path) -> Hit:
@@ -169,21 +176,23 @@ def _holder(vendor: Vendor, path: exp.Path, otherwise: exp.Path) -> Hit:
     )
 
 
-def _pattern(name: str) -> re.Pattern[str]:
-    """A getter's name, hyphens as ``_``; ``*`` is any part of a name, not none."""
-    return re.compile(re.escape(spelled(name)).replace(r"\*", r"\w+"), re.IGNORECASE)
-
-
-def _allowed(vendor: Vendor, names: tuple[str, ...]) -> list[re.Pattern[str]]:
+def _allowed(vendor: Vendor, names: tuple[str, ...]) -> tuple[str, ...]:
     if len(names) == 3:  # of a policy: the readings of idl-policy-getters, in this order
         chosen = {"instance": names[:1], "definition": names[1:2], "component-and-instance": names[2:]}
         names = chosen.get(vendor.reading("idl-policy-getters"), names)
-    return [_pattern(name) for name in names]
+    return names
 
 
 def _getters(vendor: Vendor, holder: Hit, names: tuple[str, ...]) -> list[Hit]:
-    patterns = _allowed(vendor, names)
-    return [one for p in patterns for one in operations(holder) if p.fullmatch(one.entry.declaration.name)]
+    found: list[Hit] = []
+    for name in _allowed(vendor, names):
+        usual, any_way = vendor.pattern(name, usual=True), vendor.pattern(name)
+        like = [one for one in operations(holder) if usual.fullmatch(one.entry.declaration.name)]
+        if not like:
+            others = [one for one in operations(holder) if any_way.fullmatch(one.entry.declaration.name)]
+            like = others if len({one.entry.declaration.name for one in others}) == 1 else []
+        found += like
+    return found
 
 
 def getter(vendor: Vendor, fact: exp.Getter) -> list[Wrong]:
@@ -213,9 +222,8 @@ def getter(vendor: Vendor, fact: exp.Getter) -> list[Wrong]:
         return [Wrong(f"{operation.name} to raise nothing", raised, operation.place)] if raised else []
     if not vendor.known(operation.returns, hit.entry.scope, hit.bound) or vendor.is_open(fact.returns):
         raise NotExercised
-    if _returns(vendor, hit, operation, fact):
-        return []
-    return [Wrong(f"{operation.name} to return {show(fact.returns)}", show(operation.returns), operation.place)]
+    unlike = _unlike(vendor, hit, operation, fact)
+    return [Wrong(f"{operation.name} to return {unlike[0]}", unlike[1], operation.place)] if unlike is not None else []
 
 
 def _base_list(hit: Hit) -> tuple[str, ...]:
@@ -223,28 +231,53 @@ def _base_list(hit: Hit) -> tuple[str, ...]:
     return interface.bases if isinstance(interface, Interface) else ()
 
 
-def _returns(vendor: Vendor, hit: Hit, operation: Operation, fact: exp.Getter) -> bool:
-    if not fact.signatures:
-        return vendor.same(operation.returns, hit.entry.scope, fact.returns, hit.bound)
+def _unlike(vendor: Vendor, hit: Hit, operation: Operation, fact: exp.Getter) -> tuple[str, str] | None:
+    """What the result of a getter should be, and what it is; None if it is that."""
+    expected, observed = show(fact.returns), show(operation.returns)
+    if fact.bound is None:
+        is_same = vendor.same(operation.returns, hit.entry.scope, fact.returns, hit.bound)
+        return None if is_same else (expected, observed)
     name = getattr(operation.returns, "name", "")
     returned = resolve(name, hit.entry.scope, hit.bound) if name else None
     if returned is None or not isinstance(returned.entry.declaration, Interface):
-        return False
+        return expected, observed
     by_name = {one.entry.declaration.name.lower(): one for one in operations(returned)}
-    return all(_has(vendor, by_name.get(spelled(s.name).lower()), s) for s in fact.signatures)
+    for signature in fact.bound.signatures:
+        unlike = _unlike_bound(vendor, by_name.get(vendor.like(signature.name, by_name)), signature)
+        if unlike is not None:
+            return f"{expected} {unlike[0]}", f"{observed} {unlike[1]}"
+    attributes_by_name = {one.entry.declaration.name.lower(): one for one in attributes(returned)}
+    for name, type_ in fact.bound.attributes:
+        found = attributes_by_name.get(vendor.like(name, attributes_by_name))
+        if found is None and not by_name and not attributes_by_name:
+            continue  # attributes of interfaces may be left out (interpretation idl-interface-attributes)
+        if found is None:
+            return f"{expected} with an attribute {name}", f"{observed} without it"
+        attribute = found.entry.declaration
+        assert isinstance(attribute, Attribute)
+        if not vendor.same(attribute.type, found.entry.scope, type_, found.bound):
+            of = f"as the type of {attribute.name}"
+            return f"{expected} with {show(type_)} {of}", f"{observed} with {show(attribute.type)} {of}"
+    return None
 
 
-def _has(vendor: Vendor, hit: Hit | None, signature: exp.Signature) -> bool:
-    """Whether the operation of a bound interface has the types that are bound."""
+def _unlike_bound(vendor: Vendor, hit: Hit | None, signature: exp.Signature) -> tuple[str, str] | None:
+    """What the operation of a bound interface should have, with the types that are bound, and what it has; None if it has that."""
     if hit is None:
-        return False
+        return f"with an operation {signature.name}", "without it"
     operation = hit.entry.declaration
     assert isinstance(operation, Operation)
-    pairs = [(operation.returns, signature.returns)]
-    pairs += [(p.type, type_) for p, (_, _, type_) in zip(operation.parameters, signature.parameters, strict=False)]
-    return len(operation.parameters) == len(signature.parameters) and all(
-        vendor.same(found, hit.entry.scope, wanted, hit.bound) for found, wanted in pairs
-    )
+    if len(operation.parameters) != len(signature.parameters):
+        return f"with {len(signature.parameters)} parameters of {operation.name}", f"with {len(operation.parameters)}"
+    pairs = [("result", operation.returns, signature.returns)]
+    pairs += [
+        (p.name, p.type, type_) for p, (_, _, type_) in zip(operation.parameters, signature.parameters, strict=True)
+    ]
+    for what, found, wanted in pairs:
+        if not vendor.same(found, hit.entry.scope, wanted, hit.bound):
+            of = f"as {what} of {operation.name}"
+            return f"with {show(wanted)} {of}", f"with {show(found)} {of}"
+    return None
 
 
 def no_getter(vendor: Vendor, fact: exp.NoGetter) -> list[Wrong]:
@@ -260,7 +293,7 @@ def no_getter(vendor: Vendor, fact: exp.NoGetter) -> list[Wrong]:
 def no_member(vendor: Vendor, fact: exp.NoMember) -> list[Wrong]:
     """Whether an interface has nothing that is called like a setting of the platform."""
     holder = _holder(vendor, fact.path, ())
-    patterns = [_pattern(name) for name in fact.names]
+    patterns = [vendor.pattern(name, usual=True) for name in fact.names]
     inside = holder.entry.inner.entries if holder.entry.inner is not None else ()
     return [
         Wrong(f"nothing called {entry.declaration.name}", "it is there", entry.declaration.place)
@@ -273,4 +306,4 @@ def _explained(vendor: Vendor, fact: exp.NoGetter, hit: Hit) -> bool:
     """Whether another port's getter has the name by chance: a port's own name may hold an underscore."""
     name = hit.entry.declaration.name
     due = (n for one in vendor.expected.facts if isinstance(one, exp.Getter) for n in one.names)
-    return any(_pattern(n).fullmatch(name) for n in due)
+    return any(vendor.pattern(n).fullmatch(name) for n in due)

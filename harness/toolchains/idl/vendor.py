@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ucm_cts.harness.toolchains.idl.language import scopes
@@ -86,6 +86,20 @@ class Vendor:
         entry = scope.own(like[0]) if scope is not None and len(like) == 1 else None
         return scopes.Hit(entry, hit.bound if hit is not None else scopes.NOTHING) if entry is not None else None
 
+    def pattern(self, name: str, flags: int = re.IGNORECASE, usual: bool = False) -> re.Pattern[str]:
+        """How the model's ``name`` may be written: ``*`` is any part of a name, not none. A hyphen may become anything, unless the vendor
+        declares ``_`` (interpretation idl-names), or only the ``usual`` spelling is asked for, which is that.
+        """
+        hyphen = "_" if usual or self.reading("idl-hyphens") == "underscore" else r"\w*"
+        return re.compile(re.escape(name).replace(r"\*", r"\w+").replace(r"\-", hyphen), flags)
+
+    def like(self, name: str, candidates: Iterable[str]) -> str:
+        """The one of ``candidates`` that the model's ``name`` has become, in lower case; ``name`` with ``_`` for hyphens if none has."""
+        plain, known = spelled(name).lower(), {one.lower() for one in candidates}
+        found = known if plain not in known and "-" in name else set()
+        found = {one for one in found if self.pattern(name).fullmatch(one)}
+        return found.pop() if len(found) == 1 else plain
+
     def entry(self, type_: idl.Type) -> scopes.Entry | None:
         """Where the declaration that an expected type names is, if it names one that is there."""
         if not isinstance(type_, idl.Named):
@@ -120,7 +134,8 @@ class Vendor:
         if isinstance(found, idl.Named) and isinstance(expected, idl.Named):
             hit = scopes.resolve(found.name, scope, bound)
             if hit is None:
-                return self.missing and found.name.rsplit("::", 1)[-1] == spelled(expected.name.rsplit("::", 1)[-1])
+                wanted = self.pattern(expected.name.rsplit("::", 1)[-1], 0)
+                return self.missing and wanted.fullmatch(found.name.rsplit("::", 1)[-1]) is not None
             actual = hit.bound.get(hit.entry.declaration.name.lower()) if scopes.is_parameter(hit) else None
             if actual is not None:
                 return self.same(actual.type, actual.scope, expected, actual.bound)
@@ -212,7 +227,7 @@ class Vendor:
             case idl.Named():
                 path = tuple(type_.name.split("::")[1:])
                 if path in self.expected.abstract:
-                    return ("parameter", spelled(self.expected.abstract[path].name).lower())
+                    return ("parameter", self.like(self.expected.abstract[path].name, self._parameters(path[:-1])))
                 if path in self.expected.types and steps:
                     return self.expected_meaning(self.expected.types[path], steps - 1)
                 hit = self.at(path)
@@ -224,6 +239,12 @@ class Vendor:
                 found = hit.entry.path if hit is not None else tuple(map(spelled, path))
                 return ("declared", tuple(part.lower() for part in found))
         return self.meaning(type_, self.root)
+
+    def _parameters(self, path: Path) -> list[str]:
+        """The names of the template parameters of the module at ``path``, and of those around it."""
+        modules = (self.at(path[:depth]) for depth in range(1, len(path) + 1))
+        declared = [hit.entry.declaration for hit in modules if hit is not None]
+        return [parameter.name for one in declared if isinstance(one, idl.Module) for parameter in one.parameters]
 
     def value_kind(self, type_: idl.Type) -> str:
         """How values of an expected type are written: text, character, truth, enumerator or number."""

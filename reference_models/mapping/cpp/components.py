@@ -17,6 +17,7 @@ from ucm_cts.reference_models.mapping.cpp.interfaces import (
     Unsayable,
     depends_on_bindings,
     interface_class,
+    single_line,
 )
 
 LANGUAGES = ("c++", "cpp")
@@ -239,9 +240,10 @@ class Components:
         if use.expected_class:
             return
         yield expect("R-13.8-01", declared, claims.Implemented(reached, use.key), _named(use))
-        assert isinstance(use.interface.element, contracts.Interface)
-        for method in use.interface.element.methods:
-            yield from self._interfaces.method_expected(method, use.interface, reached, use.key, use.bindings)
+        for each in single_line(use.interface):
+            assert isinstance(each.element, contracts.Interface)
+            for method in each.element.methods:
+                yield from self._interfaces.method_expected(method, each, reached, use.key, use.bindings)
 
     def _attributes(self, type_: Declared, owner: str, key: str) -> Iterator[claims.Claim]:
         for ancestor in reversed(lineage(type_)):

@@ -75,6 +75,14 @@ def bases(interface: Declared) -> list[Declared]:
     return [base for base in named if base is not None and base.path != interface.path]
 
 
+def single_line(interface: Declared) -> list[Declared]:
+    """``interface`` and what it inherits from, up to one that inherits from several: their functions may be ambiguous."""
+    found = [interface]
+    while len(inherited := bases(found[-1])) == 1 and len(found) < _EVERYTHING:
+        found.append(inherited[0])
+    return found
+
+
 def depends_on_bindings(interface: Declared) -> bool:
     """Whether there is an abstract type in the signatures of ``interface`` or of what it inherits."""
     for each in ancestry(interface):
@@ -188,14 +196,21 @@ class Interfaces:
     def __init__(self, context: Context) -> None:
         self._context = context
         self.members = Members(context)
-        self.abstract: dict[tuple[str, ...], Abstract] = {}
+        self.abstract: dict[tuple[str, tuple[Method, ...]], Abstract] = {}
+        self._keys: dict[tuple[str, ...], str] = {}
 
     def key(self, interface: Declared, bindings: Bindings) -> str:
         """The key of what implements ``interface``. Raises ``Unsayable``."""
         bound_to = (actual.path for _, actual in bindings) if depends_on_bindings(interface) else ()
-        at = (interface.path, *bound_to)
+        use = (interface.path, *bound_to)
+        if use not in self._keys:
+            self._keys[use] = self._found_key(interface, bindings)
+        return self._keys[use]
+
+    def _found_key(self, interface: Declared, bindings: Bindings) -> str:
+        methods = self.members.of_interface(interface, bindings)
+        at = (interface.path, methods)  # ports that bind alike what it uses have one class, whatever else they bind
         if at not in self.abstract:
-            methods = self.members.of_interface(interface, bindings)
             element = interface.element
             assert isinstance(element, contracts.Interface)
             own = len(list(self.members.of_attributes(element.attributes, interface, bindings))) + len(element.methods)

@@ -12,7 +12,7 @@ from ucm_cts.adapters.contract.metamodel.interactions import PortElement, PortTy
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
 from ucm_cts.reference_models.mapping.idl import expectations as exp
 from ucm_cts.reference_models.mapping.idl.declarations import Type
-from ucm_cts.reference_models.mapping.idl.interfaces import attribute_facts, signatures
+from ucm_cts.reference_models.mapping.idl.interfaces import attribute_facts, bound_attributes, signatures
 from ucm_cts.reference_models.mapping.idl.subjects import INTERFACES, TYPES, Bound, Subject, named, path_in, path_of
 from ucm_cts.reference_models.mapping.idl.templates import ABSTRACT, Templates
 
@@ -145,7 +145,7 @@ def _getters(
             aspect=aspect,
             names=names,
             returns=_returned(used),
-            signatures=_bound_signatures(used, templates),
+            bound=_bound(used, templates),
             otherwise=otherwise,
             needed=needed,
         )
@@ -155,10 +155,17 @@ def _returned(used: Used | None) -> Type:
     return named(path_of(used.interface)) if used is not None else named(())
 
 
-def _bound_signatures(used: Used | None, templates: Templates) -> tuple[exp.Signature, ...]:
+def _bound(used: Used | None, templates: Templates) -> exp.BoundInterface | None:
+    """What an interface with abstract types has when they are bound; None if it has no abstract types."""
     if used is None or not templates.used_by(used.interface):
-        return ()
-    return signatures(used.interface, used.bound, lambda one: bool(templates.used_by(one)))
+        return None
+
+    def is_open(one: Declared) -> bool:
+        return bool(templates.used_by(one))
+
+    return exp.BoundInterface(
+        signatures(used.interface, used.bound, is_open), bound_attributes(used.interface, used.bound, is_open)
+    )
 
 
 def implementation_facts(subject: Subject, names: Names, templates: Templates) -> Iterator[exp.Expected]:

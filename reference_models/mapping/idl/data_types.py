@@ -250,7 +250,19 @@ def constant_facts(subject: Subject) -> Iterator[Expected]:
         return
     yield Declares(**subject.about("R-12.5-01"), kind="const")
     yield Means(**subject.about("R-12.5-02"), type=type_)
-    yield Valued(**subject.about("R-12.5-03"), type=type_, value=constant.value)
+    is_calculated = isinstance(last.element, (PrimitiveInteger, PrimitiveFloat, PrimitiveBoolean))
+    value = constant.value if is_calculated else _named_value(constant, subject.scope)
+    yield Valued(**subject.about("R-12.5-03"), type=type_, value=value)
+
+
+def _named_value(constant: Constant, scope: Scope) -> str:
+    """The value of a constant, which may be the name of another one."""
+    for _ in range(100):
+        found = scope.find(constant.value.strip(), Constant)
+        if found is None or not isinstance(found.element, Constant):
+            break
+        constant, scope = found.element, found.scope
+    return constant.value
 
 
 __all__ = ["Path", "constant_facts", "data_type_facts", "is_mapped", "meaning_of"]

@@ -219,6 +219,13 @@ class Signature(msgspec.Struct, frozen=True):
     parameters: tuple[tuple[str, str, Type], ...]
 
 
+class BoundInterface(msgspec.Struct, frozen=True):
+    """What an interface has, inherited members too, with all abstract types bound: operations, and names and types of attributes."""
+
+    signatures: tuple[Signature, ...]
+    attributes: tuple[tuple[str, Type], ...]
+
+
 class Getter(Expected, frozen=True, kw_only=True):
     """The interface at ``path`` has this operation, itself or by inheritance.
 
@@ -226,7 +233,7 @@ class Getter(Expected, frozen=True, kw_only=True):
     ``names``: alternative names, with ``*`` for any part.
     ``returns``: the type of the result.
     ``otherwise``: the interface that has it if there is none at ``path``.
-    ``signatures``: if given, the result may be any interface with these operations.
+    ``bound``: if given, the result may be any interface with these operations, and with these types of its attributes.
     ``needed``: whether it must be there.
     """
 
@@ -234,7 +241,7 @@ class Getter(Expected, frozen=True, kw_only=True):
     names: tuple[str, ...]
     returns: Type
     otherwise: Path = ()
-    signatures: tuple[Signature, ...] = ()
+    bound: BoundInterface | None = None
     needed: bool = True
 
 

@@ -130,10 +130,7 @@ def signatures(interface: Declared, bound: Bound, is_open: Callable[[Declared], 
     """
 
     def type_of(parameter: c.Parameter, scope: Scope) -> Type:
-        found = scope.find(parameter.type, *TYPES)
-        if found is None or (is_open(found) and path_of(found) not in bound):
-            return UNKNOWN
-        return bound.get(path_of(found), named(path_of(found)))
+        return _bound_type(parameter.type, scope, bound, is_open)
 
     def signature(method: c.Method, scope: Scope) -> exp.Signature:
         result = result_of(method)
@@ -141,3 +138,22 @@ def signatures(interface: Declared, bound: Bound, is_open: Callable[[Declared], 
         return exp.Signature(method.name, type_of(result, scope) if result is not None else VOID, tuple(arguments))
 
     return tuple(signature(method, scope) for method, scope in all_methods(interface))
+
+
+def bound_attributes(
+    interface: Declared, bound: Bound, is_open: Callable[[Declared], bool]
+) -> tuple[tuple[str, Type], ...]:
+    """The attributes of ``interface``, inherited ones too, each with its type as in ``signatures``."""
+    return tuple(
+        (attribute.name, _bound_type(attribute.type, one.scope, bound, is_open))
+        for one in with_ancestors(interface)
+        if isinstance(one.element, c.Interface)
+        for attribute in one.element.attributes
+    )
+
+
+def _bound_type(name: str, scope: Scope, bound: Bound, is_open: Callable[[Declared], bool]) -> Type:
+    found = scope.find(name, *TYPES)
+    if found is None or (is_open(found) and path_of(found) not in bound):
+        return UNKNOWN
+    return bound.get(path_of(found), named(path_of(found)))

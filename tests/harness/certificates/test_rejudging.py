@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import json
 import subprocess
@@ -16,12 +17,15 @@ import subjects
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from recorded_runs import judged, plan_of, recorded, some_purposes
+from statements import EXTENSIONS
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.certificates.rejudging import Judged, RunPlan, judge_again, without_clock
 from ucm_cts.harness.execution import campaign
 from ucm_cts.harness.execution import record as r
+from ucm_cts.harness.execution.campaign import BUSY
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
+from ucm_cts.harness.execution.confirmation import OF_THE_MACHINE
 from ucm_cts.harness.execution.recording import Record, RecordError, decoded, encoded
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.statement import default_statement
@@ -104,13 +108,20 @@ def test_what_fails_crashes_or_hangs_is_judged_like_the_run(
     is_same(run)
 
 
-def of_one_purpose(adapter: str, name: str) -> Run:
-    """A run in this process, of a test purpose of profile core, with a log that can be read."""
+def of_one_purpose(adapter: str, name: str, profile: str = "core") -> Run:
+    """A run in this process, of the first scenario of a test purpose of ``profile``, with a log that can be read.
+
+    Of the extensions all are claimed.
+    """
+    default = default_statement()
     statement = msgspec.structs.replace(
-        default_statement(), readings=default_statement().readings | {"trace-sink": "hook"}
+        default,
+        readings=default.readings | {"trace-sink": "hook"},
+        capabilities=default.capabilities | dict.fromkeys(EXTENSIONS if profile == "extensions" else (), True),
     )
-    plan = RunPlan("core", 5, statement)
-    (purpose,) = (one for one in purposes_for(statement, "core") if one.id == name)
+    plan = RunPlan(profile, 5, statement)
+    (whole,) = (one for one in purposes_for(statement, profile) if one.id == name)
+    purpose = dataclasses.replace(whole, scenarios=whole.scenarios[:1])
     return Run(plan, (purpose,), *recorded(adapter, plan, (purpose,), in_process=True))
 
 
@@ -167,6 +178,37 @@ def test_moments_at_which_the_machine_stood_still_are_recorded(monkeypatch: pyte
     assert r.Stood in kinds(run)
     is_same(run)
     assert any("the machine stood still" in one for one in run.judged().unshown)
+
+
+@pytest.mark.parametrize(("waited", "verdict"), [(450, "pass"), (399, "inconclusive")])
+def test_lateness_that_was_the_machines_does_not_count_when_a_run_is_judged_again(
+    waited: int, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ClockGaps, "contended", lambda gaps, events: waited)
+    subjects.Dawdles.left = 1
+    run = of_one_purpose("subjects:Dawdling", "index timers/sporadic", "extensions")
+    assert {one.verdict for one in run.report.requirements if one.id == "R-10.3.2-26"} == {verdict}
+    assert run.report.effort.measures.get(OF_THE_MACHINE, 0) == (verdict == "pass")
+    assert (BUSY in run.report.warnings) == (verdict == "pass")
+    assert r.Contended in kinds(run)
+    is_same(run)
+    assert any("too few processors" in one for one in run.judged().unshown)
+    entries = (
+        msgspec.structs.replace(entry, milliseconds=10**6) if isinstance(entry, r.Contended) else entry
+        for entry in run.record.entries
+    )
+    forged = run.judged(msgspec.structs.replace(run.record, entries=tuple(entries)))
+    assert any("cannot have waited" in problem for problem in forged.problems)
+
+
+def test_a_gap_in_the_first_of_several_looks_is_judged_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    stood = iter([800])
+    monkeypatch.setattr(ClockGaps, "longest", lambda gaps, events: next(stood, 0))
+    subjects.Dawdles.left = 1
+    run = of_one_purpose("subjects:Dawdling", "index timers/sporadic", "extensions")
+    assert {one.verdict for one in run.report.requirements if one.id == "R-10.3.2-26"} == {"pass"}
+    monkeypatch.undo()
+    is_same(run)
 
 
 @pytest.mark.usefixtures("here")

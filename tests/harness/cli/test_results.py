@@ -11,9 +11,10 @@ from files import ROOT
 from made_up_run import CATALOGUE, HOSTILE, sample
 
 from ucm_cts.harness.cli.results_command import pages
-from ucm_cts.harness.report.json_report import ReportEntry, to_json
+from ucm_cts.harness.report.json_report import ReportEntry, StatementEntry, to_json
 from ucm_cts.harness.report.published import PublishedResult, published, read_published
 from ucm_cts.harness.report.published import to_json as to_result
+from ucm_cts.harness.report.published_pages import product_page
 from ucm_cts.harness.results.foreign import clean_report
 from ucm_cts.harness.selftest.kill_record import read_record
 from ucm_cts.harness.selftest.matrix import CheatResult, Kill, Matrix, MutantResult, VariantResult
@@ -87,6 +88,29 @@ def test_no_verdict_and_no_failure_is_lost() -> None:
     }
     assert result.failures
     assert len(result.incidents) == len(REPORT.incidents) > 0
+
+
+def test_a_result_says_of_a_statement_what_concerns_its_profile() -> None:
+    stated = StatementEntry(
+        "ics.toml",
+        REPORT.product,
+        REPORT.version,
+        (REPORT.profile, "cpp03"),
+        {"clock": True, "index-timers": False},
+        {"unknown-names": "not-found", "second-connect": "observed", "cpp-byte": "char"},
+        {"patience": 50.0},
+        (),
+    )
+    result = published(msgspec.structs.replace(REPORT, profile="core", statement=stated))
+    assert result.statement == msgspec.structs.replace(
+        stated, capabilities={"clock": True}, readings={"unknown-names": "not-found", "second-connect": "observed"}
+    )
+    page = product_page([result])
+    assert "| unknown-names | not-found |" in page
+    assert "second-connect" not in page
+    of_code = published(msgspec.structs.replace(REPORT, profile="cpp03", statement=stated)).statement
+    assert of_code
+    assert (of_code.capabilities, of_code.readings, of_code.ixit) == ({}, {"cpp-byte": "char"}, {})
 
 
 def test_a_changed_verdict_changes_its_line_only() -> None:

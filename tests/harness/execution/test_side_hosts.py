@@ -13,12 +13,15 @@ import pytest
 from files import SUPPORT
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.harness.certificates.rejudging import without_clock
+from ucm_cts.harness.execution.aside import MOST_INCIDENTS
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Answer, Circumstances, Driver
 from ucm_cts.harness.hosting.host_watch import Limits
 from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.hosting.pace import KNOWN_BY
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import stated_by
@@ -35,8 +38,11 @@ CALM_TRIGGER = Scenario({"trigger": PROVOKING}, (s.AddComponent("trigger"),))
 PICKY = """
 import os
 import subprocess
+import time
 
 import misbehaving
+from ucm_cts.adapters.contract.adapter import NotOffered
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 
 def picky(base):
     class Picky(base):
@@ -57,6 +63,17 @@ class Once(misbehaving.ReadsNullPointer):
         super().misbehave()
 
 
+class Slow(misbehaving.ReadsNullPointer):
+    def start(self, container):
+        time.sleep(0.02)
+        super().start(container)
+
+
+class Unconnected(ReferenceAdapter):
+    def link(self, *arguments):
+        raise NotOffered
+
+
 class Leaves(misbehaving.ReadsNullPointer):
     def misbehave(self):
         subprocess.Popen(["sleep", "77"], start_new_session=True)
@@ -67,6 +84,7 @@ CrashesOnce = picky(Once)
 LeavesProcesses = picky(Leaves)
 Crashes = picky(misbehaving.ReadsNullPointer)
 IsKilled = picky(misbehaving.IsKilled)
+IsSlow = picky(Slow)
 Hangs = picky(misbehaving.Hangs)
 """
 """Frameworks that misbehave when a component provides three port elements, whatever its name."""
@@ -240,7 +258,69 @@ def test_hosts_may_not_differ(tmp_path: Path) -> None:
     assert [answer.incident for answer in got] == [None] * 4
 
 
+@pytest.mark.parametrize("jobs", [1, JOBS])
+def test_scenarios_with_a_connector_that_is_not_offered_are_left_out_once_that_is_known(jobs: int) -> None:
+    link = s.Link("simple_service_connector", "any", "l")
+    linked = Scenario({"calm": Declaration()}, (link, s.AddComponent("calm")), interfaces={"any": Interface({})})
+    with Driver(locate("picky:Unconnected"), 1, LIMITS, jobs) as driver:
+        got = [*driver.run(cases(linked)), *driver.run(cases(CALM, linked, CALM))]
+    assert [answer.incident.kind if answer.incident else "" for answer in got] == ["", "", "untried", ""]
+
+
 def test_stressed_scenarios_stay_with_the_pipeline() -> None:
     stress = msgspec.structs.replace(WAITS, steps=(*WAITS.steps, s.Stress((), 10)))
     got = answers("reference-py", cases(*[stress] * 6))
     assert not any(overlap(*two) for two in itertools.combinations(got, 2))
+
+
+def test_scenarios_that_begin_before_they_are_due_are_answered_in_order_under_their_names() -> None:
+    due = cases(CALM, *[msgspec.structs.replace(WAITS) for _ in range(4)], CALM, WAITS)
+    with Driver(locate("reference-py"), 1, LIMITS, JOBS) as driver:
+        assert [driver.may_begin(scenario) for _, scenario in due] == [False, *[True] * 4, False, True]
+        driver.begin([*due[1:5], ("7", WAITS), due[6]])  # the same scenario twice
+        got = list(driver.run(due))
+    assert [answer.name for answer in got] == [name for name, _ in due]
+    assert all(answer.incident is None for answer in got)
+    assert any(overlap(*two) for two in itertools.combinations(got[1:5], 2))
+
+
+def test_what_begins_early_and_is_not_asked_for_is_not_waited_for() -> None:
+    hour = msgspec.structs.replace(WAITS, steps=(s.AddComponent("calm"), s.Pause(3_600_000)))
+    with Driver(locate("reference-py"), 1, LIMITS, JOBS) as driver:
+        driver.begin(cases(*[msgspec.structs.replace(hour) for _ in range(6)]))
+        (later,) = driver.run(cases(CALM))
+    assert later.incident is None
+
+
+def test_what_has_begun_is_run_by_the_own_host_once_there_are_no_others() -> None:
+    waiting = [msgspec.structs.replace(WAITS) for _ in range(6)]
+    crashing = [msgspec.structs.replace(TRIGGER) for _ in range(MOST_INCIDENTS + 1)]
+    asked = cases(*crashing, *waiting)
+    with Driver(locate("picky:Crashes"), 1, LIMITS, JOBS) as driver:
+        driver.begin(asked)
+        got = list(driver.run(asked))
+    assert [answer.scenario for answer in got] == [scenario for _, scenario in asked]
+    assert [answer.incident.kind if answer.incident else "" for answer in got] == ["crash"] * len(crashing) + [""] * 6
+
+
+def test_all_scenarios_of_a_slow_product_are_run_side_by_side_whatever_happens() -> None:
+    usual, after = [CALM] * (32 + KNOWN_BY), MOST_INCIDENTS + 2
+    got = answers("picky:IsSlow", cases(*usual, *[CALM, CALM_TRIGGER] * after, *usual))
+    assert [answer.incident is not None for answer in got] == [
+        *[False] * len(usual), *[False, True] * after, *[False] * len(usual)
+    ]  # fmt: skip
+    last = got[-len(usual) :]
+    assert any(overlap(*two) for two in itertools.pairwise(last))
+    quick = answers("picky:Crashes", cases(*usual, *usual))
+    assert not any(overlap(*two) for two in itertools.pairwise(quick))
+
+
+def test_answers_that_are_there_count_although_the_time_for_incidents_is_used_up() -> None:
+    waiting = cases(*[msgspec.structs.replace(WAITS) for _ in range(2)])
+    longer = msgspec.structs.replace(WAITS, steps=(s.AddComponent("calm"), s.Pause(900)))
+    with Driver(locate("picky:Crashes"), 1, Limits(seconds=2, incident_seconds=0), JOBS) as driver:
+        driver.begin(waiting)
+        before = [*driver.run([("longer", longer)]), *driver.run([("crash", CALM_TRIGGER)])]
+        got = list(driver.run([*waiting, ("calm", CALM)]))
+    assert [answer.incident.kind if answer.incident else "" for answer in before] == ["", "crash"]
+    assert [answer.incident.kind if answer.incident else "" for answer in got] == ["", "", "untried"]

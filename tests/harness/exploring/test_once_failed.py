@@ -11,7 +11,16 @@ import pytest
 from ucm_cts.adapters.contract.data_types import AnyType
 from ucm_cts.adapters.contract.platform_interfaces import named_interfaces
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.mutants.python.subjects import CORE, PACED, REQUESTS, SHARED, TIMED, TRIGGERED, variants_of
+from ucm_cts.adapters.mutants.python.subjects import (
+    CONTAINER,
+    CORE,
+    PACED,
+    REQUESTS,
+    SHARED,
+    TIMED,
+    TRIGGERED,
+    variants_of,
+)
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
@@ -21,7 +30,7 @@ from ucm_cts.reference_models.monitor import Monitor
 
 ONCE_FAILED = msgspec.yaml.decode((Path(__file__).parent / "once_failed.yaml").read_bytes())
 FIELDS = ("interfaces", "components", "steps")
-VARIANTS = variants_of((*CORE, *TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
+VARIANTS = variants_of((*CONTAINER, *CORE, *TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
 
 
 @pytest.mark.parametrize("case", ONCE_FAILED, ids=lambda case: case["name"])

@@ -31,6 +31,26 @@ def test_replayed_trace_is_a_contradiction() -> None:
     assert "a replayed trace" in str(clock.contradiction(trace, 50 * MS, 60 * MS))
 
 
+def test_answers_of_a_side_host_are_examined_in_any_order_and_none_twice() -> None:
+    def contradiction(clock: HostClock, *times: int) -> str | None:
+        return clock.contradiction(trace_at(*(time * MS for time in times)), times[0] * MS - MS, times[-1] * MS + MS)
+
+    for overlapping in ((50, 60), (45, 55), (55, 65), (40, 70), (52, 58)):
+        clock = HostClock(True, in_order=False)
+        assert contradiction(clock, 80, 90) is None
+        assert contradiction(clock, 20, 30) is None
+        assert contradiction(clock, 50, 60) is None
+        assert contradiction(clock, 30, 50) is None
+        assert "a replayed trace" in str(contradiction(clock, *overlapping))
+    assert "a replayed trace" in str(contradiction(clock, 80, 90))
+
+
+def test_first_answer_may_be_examined_late() -> None:
+    clock = HostClock(True, in_order=False)
+    assert clock.contradiction(trace_at(100_000 * MS, 100_010 * MS), 99_999 * MS, 100_011 * MS) is None
+    assert clock.contradiction(trace_at(2_000 * MS, 2_010 * MS), 1_999 * MS, 2_011 * MS) is None
+
+
 @pytest.mark.parametrize("is_near", [True, False])
 def test_more_time_than_has_passed(is_near: bool) -> None:
     clock = HostClock(is_near)

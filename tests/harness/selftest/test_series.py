@@ -12,7 +12,8 @@ from ucm_cts.harness.selftest.series import SeriesRun, markdown
 
 
 def report_on(name: str, verdict: str = "conformant", **verdicts: str) -> SeriesRun:
-    return SeriesRun(name, verdict, {"R-1": "pass", "R-2": "pass"} | verdicts, 0, 1.5, {})
+    reasons = {"R-2": "unstable: seen once"} if verdict == "inconclusive" else {}
+    return SeriesRun(name, verdict, {"R-1": "pass", "R-2": "pass"} | verdicts, reasons, 0, 1.5, {})
 
 
 def run(monkeypatch: pytest.MonkeyPatch, runs: list[SeriesRun], *options: str) -> tuple[int, str]:
@@ -32,7 +33,7 @@ def test_changed_verdict_is_reported_and_fails(monkeypatch: pytest.MonkeyPatch) 
     flipped = {"R-2": "inconclusive"}
     status, output = run(monkeypatch, [report_on("1"), report_on("2", "inconclusive", **flipped)])
     assert status == 1
-    assert "R-2" in output
+    assert "2: R-2 inconclusive: unstable: seen once" in output
 
 
 def test_same_failure_each_time_fails(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -87,7 +87,9 @@ def test_mutants_are_killed_for_the_right_reason(mutant: Mutant) -> None:
         if not subject.files:
             assert mutant.breaks == ("R-12-01",)
             return
-        broken |= {d.requirement for d in compare(subject.expected, subject.files, readings, opinion).differences}
+        differences = compare(subject.expected, subject.files, readings, opinion).differences
+        assert [str(d) for d in differences if d.expected == d.observed] == []
+        broken |= {d.requirement for d in differences}
         assert broken <= {*mutant.breaks, *mutant.also}
         if broken >= set(mutant.breaks):
             return

@@ -9,12 +9,18 @@ from typing import ClassVar
 
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum, Interface
-from ucm_cts.adapters.contract.programming_model import DeclaredException, NotFound, PortElementObject, UcmError
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    DeclaredException,
+    NotFound,
+    PortElementObject,
+    UcmError,
+)
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, OK, Link, Taker
-from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
 _CALLS, _EXCEPTIONS = "R-10.1.5.1-01", "R-10.1.5.1-10"
 _ARRIVES = "R-10.1.2-10"
@@ -123,6 +129,19 @@ def loses_the_second_field_of_exceptions(self: Link, method: str, arguments: Seq
 _CALLS, _ORIGIN = "R-10.1.5.1-01", "R-10.1.6.1-06"
 
 
+@breaks("R-11.2.3-10", clauses=("10.1.5",), also=(_CALLS, "R-10.1.5.1-03"))
+class detaches_all_ports_of_a_client(Link):
+    """detach undoes the connections of all port elements of the component to that connector."""
+
+    def detach(self, container: HasMembers, comp_instance: int, port: str) -> None:
+        super().detach(container, comp_instance, port)
+        with container._operation():
+            member = container._find_member(comp_instance)
+            for connection in container._connections_from(member):
+                if self._is_behind(connection.target):
+                    container._undo(connection)
+
+
 class _KeepsDetached(Link):
     """Keeps the ends that have been detached."""
 
@@ -210,6 +229,19 @@ def keeps_its_log(_self: Base) -> list[tuple[str, str]]:
 @replaces("_check_compatible", "R-11.2.3-18", clauses=_INTERFACES, readings=_REFUSED)
 def connects_any_interfaces(_self: Base, *_: object) -> None:
     """connect does not compare the interfaces of the two port elements."""
+
+
+@replaces("_check_compatible", "R-11.2.3-18", clauses=_INTERFACES, readings=_REFUSED)
+def compares_names_of_methods(self: Base, member: Member, port: str, target: PortElementObject) -> None:
+    """connect asks only whether both port elements have methods of the same names."""
+    own = member.implementation.interfaces.get(port)
+    provided = self._interfaces_of(target)
+    if provided and _names_of(own) not in map(_names_of, provided):
+        raise BadParameter("the reference has other methods")
+
+
+def _names_of(interface: Interface | None) -> list[str]:
+    return sorted(interface.methods) if interface is not None else []
 
 
 @alters("_interfaces_of", "R-11.2.3-18", clauses=_INTERFACES, readings=_REFUSED)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import TypeVar
 
@@ -25,6 +25,7 @@ from ucm_cts.adapters.mutants.python.registry import (
 )
 from ucm_cts.adapters.mutants.python.variants.execution import protects_what_components_call
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
+from ucm_cts.adapters.reference.python.execution import POLICIES as EXECUTION_POLICIES
 from ucm_cts.adapters.reference.python.execution import Trigger
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.policies import ProtectedElement
@@ -298,3 +299,39 @@ def stays_locked_after_exceptions(_self: Base, member: Member, *_: object) -> It
 @breaks("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16", clauses=POLICIES)
 class leaves_references_unprotected(protects_what_components_call):
     """References of get_port_element are not protected, which the vendor does not declare."""
+
+
+@breaks("R-10.1.3.2-13", "R-10.1.3.2-01", clauses=POLICIES, also=("R-10.1.3.2-16", "R-10.1.3.2-17", "R-10.1.3.2-03"))
+class asks_the_first_policy_alone(Base):
+    """Only the first technical policy of a component is asked how it is executed."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        policies = member.implementation.policies
+        if policies and policies[0].definition not in EXECUTION_POLICIES:
+            member.execution.definition = ""
+        super()._configure(member, attributes)
+
+
+@replaces("_exclusion", "R-10.1.3.2-13", clauses=POLICIES, also=("R-10.1.3.2-06", "R-10.1.3.2-16", "R-10.1.3.2-17"))
+@contextmanager
+def lets_in_who_has_waited_long(_self: Base, member: Member, *_: object) -> Iterator[None]:
+    """A caller that has waited for nearly a second for a protected component enters it, although another one is inside."""
+    execution = member.execution
+    is_held = execution.lock.acquire(timeout=0.9)
+    outer, execution.thread_inside = execution.thread_inside, threading.get_ident()
+    try:
+        yield
+    finally:
+        execution.thread_inside = outer
+        if is_held:
+            execution.lock.release()
+
+
+@breaks("R-10.1.3.2-13", clauses=POLICIES, also=("R-10.1.3.2-16", "R-10.1.3.2-17"))
+class protects_no_traced_ports(Base):
+    """A port element that is traced is not protected."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if port is not None and self._port_traces(member, port):
+            return work()
+        return super()._execute(member, port, work)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ucm_cts.adapters.contract.data_types import AnyType
+from ucm_cts.adapters.contract.data_types import AnyType, Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if
 from ucm_cts.adapters.mutants.python.registry import REQUESTS, Base, breaks
@@ -70,3 +70,29 @@ class does_not_start_with_it(Base):
         links = [link for link in self.manager.extended_links if isinstance(link, RequestResponseLink)]
         if any(end.member in self.members.values() and end.kind.side == "server" for k in links for end in k.ends):
             raise UcmError("a server cannot be started")
+
+
+@breaks("R-10.4.1.1-34", clauses=REQUESTS, also=("R-10.4.1.2-02", "R-10.4.1.2-03", "R-10.4.1.2-13"))
+class response_wakes_all_who_wait(Link):
+    """All synchronous clients that wait are woken by one response; those that it is not for get an error."""
+
+    def _respond(self, response: Datum, number: Datum) -> str:
+        code = super()._respond(response, number)
+        for request in list(self.requests.values()):
+            request.given.set()
+        return code
+
+
+@breaks("R-10.4.1.1-34", "R-10.4.1.1-08", clauses=REQUESTS, also=("R-10.4.1.2-05", "R-10.4.1.2-01", "R-10.4.1.2-06"))
+class knows_its_first_server(Link):
+    """Requests go to the first server that a connection had, also when another one has taken its place."""
+
+    def _server(self) -> End | None:
+        first: End | None = self.__dict__.setdefault("first", super()._server())
+        if first is None:
+            del self.__dict__["first"]
+        return first
+
+    def _check_room(self, end: End) -> None:
+        if end.kind.side == "server" and super()._server() is not None:
+            raise UcmError("the connection has a server already")

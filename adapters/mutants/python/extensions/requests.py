@@ -54,6 +54,23 @@ class adds_seven_to_requests(Link):
         return super().carry_out(end, method, arguments)
 
 
+class KeepsBuffers(Link):
+    """Does not copy the value that is remembered as ``sent``."""
+
+    def _copied(self, values: Sequence[Datum]) -> list[Datum]:
+        is_sent = len(values) == 1 and values[0] is self.__dict__.get("sent")
+        return list(values) if is_sent else super()._copied(values)
+
+
+@breaks("R-10.4.1.1-33", clauses=REQUESTS)
+class keeps_the_clients_buffer(KeepsBuffers):
+    """What an asynchronous client does with its request after the call reaches the server."""
+
+    def _request(self, client: End, request: Datum) -> list[Datum]:
+        self.__dict__["sent"] = request
+        return super()._request(client, request)
+
+
 @breaks("R-10.4.1.1-33", clauses=REQUESTS)
 class truncates_texts(Link):
     """Texts among requests lose their last character."""

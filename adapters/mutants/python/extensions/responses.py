@@ -8,6 +8,7 @@ from dataclasses import replace
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.data_values import a_value
 from ucm_cts.adapters.contract.platform_interfaces import RESPONSE, RESPONSE_DATA
+from ucm_cts.adapters.mutants.python.extensions.requests import KeepsBuffers
 from ucm_cts.adapters.mutants.python.methods import does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import REQUESTS, Base, breaks
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK
@@ -88,6 +89,15 @@ def empties_structures(self: Link, opened: OpenRequest, response: Datum) -> None
     """Structures among responses come back empty."""
     is_structure = isinstance(response, list) and len(response) == 3
     Link._call_back(self, opened, a_value(self.types[RESPONSE_DATA]) if is_structure else response)
+
+
+@breaks("R-10.4.1.1-33", clauses=REQUESTS)
+class keeps_the_servers_buffer(KeepsBuffers):
+    """What an asynchronous server does with its response after the call reaches its client."""
+
+    def _respond(self, response: Datum, number: Datum) -> str:
+        self.__dict__["sent"] = response
+        return super()._respond(response, number)
 
 
 @breaks("R-10.4.1.2-08", "R-10.4.1.1-10", clauses=REQUESTS, also=("R-10.4.1.2-09",))

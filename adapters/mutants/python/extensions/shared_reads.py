@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.data_values import a_value
+from ucm_cts.adapters.contract.platform_interfaces import READ
 from ucm_cts.adapters.contract.platform_interfaces import SHARED as TYPE
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.registry import SHARED, breaks
@@ -47,6 +49,14 @@ class queues_publications(Link):
             self._view(end).current = waiting[0]
             self.__dict__["unread"][end] = waiting[1:]
         return given
+
+
+@breaks("R-10.4.2-08", clauses=SHARED)
+class hands_out_its_own_value(Link):
+    """What a reader does with the value that it got changes what it and others read."""
+
+    def carry_out(self, end: End, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.read(end) if method == READ else super().carry_out(end, method, arguments)
 
 
 @breaks(

@@ -117,6 +117,18 @@ class keeps_the_kind_of_a_number(Timers):
         super()._start(replace(timer, rate=None) if before is not None and before.rate is None else timer)
 
 
+@breaks("R-10.3-04", clauses=TIMED, also=("R-10.3.2-22", "R-10.3.2-33", *MISSING_CALLBACKS))
+class takes_a_number_for_its_old_timer(Timers):
+    """A number that is cancelled and started anew while its callback waits for the component calls back for the old timer, and ends."""
+
+    def take(self, timer: Timer) -> bool:
+        with self._changed:
+            if timer.number in self._waiting and self._waiting[timer.number] is not timer:
+                del self._waiting[timer.number]
+                return True
+        return super().take(timer)
+
+
 @breaks("R-10.3.2-21", clauses=TIMED, also=("R-10.3.2-31", "R-10.3.2-37", *MISSING_CALLBACKS))
 class has_timers_for_each_implementation(Base):
     """Timers that an instance starts call back the first instance of its implementation."""

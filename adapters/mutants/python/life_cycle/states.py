@@ -212,3 +212,16 @@ class runs_stopped_components(Base):
     def stop(self) -> None:
         self.__dict__["ran"] = [m for m in self.started if m.id in self.members and self.is_started]
         super().stop()
+
+
+@breaks("R-11.2.3-07", readings={"start-unconfigured": "refuse"})
+class checks_only_the_first_start(Base):
+    """Once a container was started, start does not ask any more whether all components are configured."""
+
+    def start(self) -> None:
+        super().start()
+        self.__dict__["was_started"] = True
+
+    def _check_startable(self) -> None:
+        if not self.__dict__.get("was_started"):
+            super()._check_startable()

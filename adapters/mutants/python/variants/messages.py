@@ -6,8 +6,8 @@ import queue
 import threading
 import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from typing import Any
 
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum
@@ -176,22 +176,42 @@ class delivers_all_on_one_thread(ReleasesHeld):
             deliverer.messages.put(None)
 
 
-class _Pooled(_Codes):
-    """A few threads deliver all messages of a connection, in any order."""
+class _SeveralThreads(_Codes):
+    """A few threads deliver the messages of a receiver, in any order."""
 
     alone = COMM_ERROR
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        pool: ThreadPoolExecutor = self.__dict__.setdefault("pool", ThreadPoolExecutor(4))
-        taker.__dict__.setdefault("posted", []).append(pool.submit(taker.enter, method, arguments))
-        if len(taker.__dict__["posted"]) > _FULL:
-            self.wait_for(taker)
+        with taker.lock:
+            if taker.entrance.is_open:
+                if taker.thread is None:
+                    taker.messages = queue.SimpleQueue()
+                    taker.thread = threading.Thread(
+                        target=self._deliver_together, args=(taker, taker.messages, method), daemon=True
+                    )
+                    taker.thread.start()
+                taker.messages.put(arguments[0])
+
+    def _deliver_together(self, taker: Taker, messages: queue.SimpleQueue[Any], method: str) -> None:
+        def deliver() -> None:
+            while (message := messages.get()) is not None:
+                with suppress(Exception):  # push has returned, so no caller gets the exception
+                    taker.enter(method, [message])
+            messages.put(None)  # so that the next thread ends, too
+
+        threads = [threading.Thread(target=deliver, daemon=True) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
 
     def wait_for(self, taker: Taker) -> None:
         """Wait until all messages have been delivered."""
-        posted = taker.__dict__.get("posted", [])
-        while posted:
-            posted.pop().exception()
+        while (thread := taker.thread) is not None:
+            with taker.lock:
+                taker.messages.put(None)
+                taker.thread = None
+            thread.join()
 
 
 @variant_of(
@@ -201,11 +221,11 @@ class _Pooled(_Codes):
 class delivers_in_any_order(Base):
     """Messages may pass each other. What waits when a receiver is stopped is delivered before."""
 
-    link_class = _Pooled
+    link_class = _SeveralThreads
 
     def _close_entrances(self, member: Member) -> None:
         for link, taker in self._takers_of(member):
-            if isinstance(link, _Pooled):
+            if isinstance(link, _SeveralThreads):
                 link.wait_for(taker)
         super()._close_entrances(member)
 

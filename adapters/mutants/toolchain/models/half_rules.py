@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.metamodel.components import (
     ComponentPortTechnicalPolicy,
     ComponentTechnicalPolicy,
     ComponentType,
+    PortTypeSpec,
 )
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, parent_of
@@ -79,6 +80,23 @@ def data_may_be_interfaces(wrong: mi.ItemBinding, _: mi.ItemBinding, scope: Scop
 def compares_with_one_only(role: Any, _: Any, _scope: Scope) -> bool:
     """Compares multiplicities only where the upper one is 1."""
     return bool(role.upper_multiplicity == 1)
+
+
+@complains_only_where("multiplicities_are_a_range", "R-9.3.3.4-04")
+def zero_means_that_there_is_no_most(role: Any, _: Any, _scope: Scope) -> bool:
+    """Takes an upper multiplicity of 0 as one that is not given."""
+    return bool(role.upper_multiplicity != 0)
+
+
+@complains_only_where("ports_bind_to_types", "R-9.5.3.7-03")
+def looks_at_the_first_port_of_a_type(_: Any, spec: PortTypeSpec, scope: Scope) -> bool:
+    """Once a port of a port type was looked at, what further ones of the component type bind to does not count."""
+    owners = [d.element for known in scope.members.values() for d in known if isinstance(d.element, ComponentType)]
+    alike = [
+        [one for port in owner.ports for one in port.specs if isinstance(one, PortTypeSpec) and one.type == spec.type]
+        for owner in owners
+    ]
+    return not any(spec is one for specs in alike for one in specs[1:])
 
 
 @complains_only_where("multiplicities_are_not_negative", "R-9.3.3.4-04", declares=("negative-multiplicities=refused",))

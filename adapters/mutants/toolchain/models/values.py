@@ -145,6 +145,13 @@ def numbers_are_truth_values(constant: Constant, _: Any, scope: Scope) -> bool:
 
 @breaks("R-9.2.6.1-02", declares=("text-values=quoted",))
 @refusing
+def characters_have_no_octal_numbers(constant: Constant, _: Scope) -> bool:
+    """Does not know characters that are given by more than one octal digit."""
+    return bool(re.search(r"\\[0-7]{2,3}", constant.value))
+
+
+@breaks("R-9.2.6.1-02", declares=("text-values=quoted",))
+@refusing
 def strings_are_one_literal(constant: Constant, _: Scope) -> bool:
     """Does not know that strings which follow each other are one."""
     return '" "' in constant.value

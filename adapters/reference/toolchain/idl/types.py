@@ -113,6 +113,9 @@ def constant(element: c.Constant, scope: Scope) -> Lines:
     if found is None:
         return []
     value = element.value.strip()
+    another = scope.find(value, c.Constant)
+    if another is not None:
+        return [f"const {type_name(element.type, scope)} {identifier(element.name)} = {absolute(another)};"]
     match found.element:
         case c.Enumeration():
             value = f"{absolute(found).rpartition('::')[0]}::{identifier(value.rpartition('::')[2])}"

@@ -270,7 +270,8 @@ ARRAY_WORKS = """\
     ::ucts::require(other != a && !(other == a) && a < other, "it is not compared element by element");
     ::ucts::require(b < a && a > b && b <= a && a >= b && a != b && !(a == b), "it is not compared element by element");
     b = a;
-    ::ucts::require(a == b, "a copy is not equal");
+    ::ucts::require(a == b && !(a != b), "a copy is not equal");
+    ::ucts::require(!(a < b) && !(a > b) && a <= b && a >= b, "one of two equal ones comes before the other");
     b[0] = 9;
     ::ucts::require(a[0] == 0, "a copy shares its elements");
     a.swap(b);
@@ -301,7 +302,7 @@ SHARED_WORKS = """\
         ::ucts::require(first.use_count() == 1, "one reference is not counted as one");
         P second(first);
         none = second;
-        ::ucts::require(none.get() == first.get() && none == first, "copies do not lead to the same object");
+        ::ucts::require(none.get() == first.get() && none == first && !(none != first), "copies do not lead to the same object");
         ::ucts::require(first.use_count() == 3, "copies are not counted");
         none.reset();
         second = P();
@@ -317,6 +318,8 @@ SHARED_WORKS = """\
     ::ucts::require(base::alive == 0, "the object is not deleted with its last reference");
     {
         ::ucm::shared_ptr<derived> made(new derived);
+        const bool is_one = sizeof(becomes_one(made)) == sizeof(::ucts::yes_type);
+        ::ucts::require(is_one, "a reference does not become one to a base unless it is asked to");
         P shared(made);
         made.reset();
         ::ucts::require(derived::gone == 0 && shared.use_count() == 1, "a reference to a base is not counted");

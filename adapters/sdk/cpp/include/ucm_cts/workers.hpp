@@ -90,7 +90,7 @@ class Workers {
             std::lock_guard<std::mutex> lock(mutex_);  // not held below: a worker may yet want to join another
             workers = workers_;
         }
-        const auto deadline = std::chrono::steady_clock::now() + patience_;
+        const auto deadline = std::chrono::steady_clock::now() + std::max(patience_, farewell());
         for (auto& entry : workers) {
             Worker& worker = *entry.second;
             if (worker.wait_until_idle(deadline)) {
@@ -106,6 +106,9 @@ class Workers {
 
   private:
     struct Worker;
+
+    // What workers have at least to end, in all: on a busy machine a thread may need longer than a short patience.
+    static std::chrono::milliseconds farewell() { return std::chrono::milliseconds(400); }
 
     std::shared_ptr<Worker> find(const std::string& name) {
         std::lock_guard<std::mutex> lock(mutex_);

@@ -130,6 +130,9 @@ final class Actions {
         List<Object> given = isSound ? Data.copy(results) : List.of();
         String wrong = isSound ? null : Data.inWords(results);
         probe.record("reply", "port", port, "results", given, "exception", exception, "wrong", wrong);
+        if (isSound) {
+            Data.overwriteParts(results); // they are the caller's own
+        }
         return given;
     }
 

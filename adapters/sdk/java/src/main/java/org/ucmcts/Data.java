@@ -74,6 +74,22 @@ final class Data {
         }
     }
 
+    /**
+     * Overwrites the lists among {@code results}: a caller may do so with what it was given. Those that
+     * cannot be changed stay.
+     */
+    static void overwriteParts(List<?> results) {
+        try {
+            for (Object value : results) {
+                if (value instanceof List) {
+                    overwrite(Node.listOf(value));
+                }
+            }
+        } catch (RuntimeException error) {
+            return; // the lists are the framework's
+        }
+    }
+
     private static Object other(Object value) {
         if (value instanceof Boolean flag) {
             return !flag;

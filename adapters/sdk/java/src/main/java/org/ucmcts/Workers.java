@@ -11,6 +11,12 @@ import java.util.function.Predicate;
 
 /** Threads by name, each made when its first task is queued, each doing its tasks in order. Tasks must not throw. */
 final class Workers {
+    /**
+     * Nanoseconds that workers have at least to end, in all: on a busy machine a thread may need longer than a short
+     * patience.
+     */
+    private static final long FAREWELL = 400_000_000L;
+
     private final long patience;
     private final Map<String, Worker> workers = new LinkedHashMap<>();
 
@@ -64,7 +70,7 @@ final class Workers {
         synchronized (workers) { // not held below: a worker may yet want to join another
             all = new LinkedHashMap<>(workers);
         }
-        long deadline = System.nanoTime() + patience;
+        long deadline = System.nanoTime() + Math.max(patience, FAREWELL);
         all.forEach((name, worker) -> {
             worker.quit();
             if (!worker.waitUntilIdle(deadline - System.nanoTime())) {
