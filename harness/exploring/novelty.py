@@ -12,6 +12,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Event, Raise, Return, Trace
 from ucm_cts.harness.exploring.predicted_coverage import Transition, transitions
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.model.row_selection import RowSelection
 
 Kind = tuple[str, ...]
 """The features of an event: its type, the operation or hook, how it ended."""
@@ -21,7 +22,7 @@ class Guide:
     """Prefers scenarios with transitions that few before them took."""
 
     def __init__(self, table: LifeCycleTable) -> None:
-        self._table = table
+        self._rows = RowSelection(table)
         self._taken: Counter[Transition] = Counter()
 
     @property
@@ -31,7 +32,7 @@ class Guide:
 
     def choose(self, candidates: Sequence[Scenario]) -> Scenario:
         """The one with the most new transitions for its length; they count as taken from now on."""
-        foreseen = [transitions(self._table, candidate) for candidate in candidates]
+        foreseen = [transitions(self._rows, candidate) for candidate in candidates]
         worth = [self._worth(f, c) for f, c in zip(foreseen, candidates, strict=True)]
         best = worth.index(max(worth))
         self._taken.update(foreseen[best])

@@ -10,8 +10,8 @@ from typing import get_args
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario, Step
-from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.prediction import Prediction
+from ucm_cts.reference_models.model.row_selection import RowSelection
 
 Transition = tuple[str, ...]
 """Rows of the life-cycle table: one after the other for one instance, or all rows of one operation together."""
@@ -19,9 +19,9 @@ Transition = tuple[str, ...]
 _CALLS = get_args(s.ContainerCall)
 
 
-def transitions(table: LifeCycleTable, scenario: Scenario) -> frozenset[Transition]:
+def transitions(rows: RowSelection, scenario: Scenario) -> frozenset[Transition]:
     """The transitions that ``scenario`` takes, and steps for connectors by what comes before and after them."""
-    prediction = Prediction(table, scenario.components)
+    prediction = Prediction(rows, scenario.components)
     latest: dict[int, str] = {}
     found: set[Transition] = set()
     for step in scenario.steps:

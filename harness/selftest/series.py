@@ -62,16 +62,21 @@ def main(adapter: str, profile: str, runs: int, variants: Sequence[str], busy: i
             done.append(one_run(adapter, profile, variant, number))
             if not console.is_terminal:
                 click.echo(f"{len(done)} of {len(cases)}: {done[-1].verdict}, {done[-1].seconds:.1f} s", err=True)
+            for flip in flips(done[-1], done[0]):
+                click.echo(flip)
     title = f"{adapter}, profile {profile}, {len(done)} runs{f', {busy} busy processors' if busy else ''}"
     Console(width=WIDTH).print(table(title, done))
-    for run in done:
-        for requirement in run.flips(done[0]):
-            reason = run.reasons.get(requirement) or "no reason is given"
-            click.echo(f"{run.name}: {requirement} {run.verdicts.get(requirement, 'not judged')}: {reason}")
     if out is not None:
         out.write_text(markdown(title, done), encoding="utf-8")
     steady = all(run.verdict == "conformant" and not run.flips(done[0]) for run in done)
     sys.exit(0 if steady or (variants and all(run.verdict == "conformant" for run in done)) else 1)
+
+
+def flips(run: SeriesRun, first: SeriesRun) -> Iterator[str]:
+    """A line for each requirement whose verdict is another one than in the ``first`` run: why, as the report says."""
+    for requirement in run.flips(first):
+        reason = run.reasons.get(requirement) or "no reason is given"
+        yield f"{run.name}: {requirement} {run.verdicts.get(requirement, 'not judged')}: {reason}"
 
 
 def one_run(adapter: str, profile: str, variant: str, number: int) -> SeriesRun:

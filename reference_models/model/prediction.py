@@ -5,6 +5,7 @@ Used to derive scenarios from the life-cycle table, never to find violations.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from copy import copy
 from typing import NamedTuple, get_args
@@ -12,7 +13,7 @@ from typing import NamedTuple, get_args
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import DeclaredError, Enter, Raise, Reference, Return
 from ucm_cts.reference_models.model.expected_callbacks import Listener, pattern
-from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
+from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.operation_effects import apply
@@ -28,10 +29,10 @@ class Way(NamedTuple):
 
 
 class Prediction:
-    """A runtime of the model that carries out steps itself."""
+    """A runtime of the model that carries out steps itself. Any number of them may share ``rows``."""
 
-    def __init__(self, table: LifeCycleTable, components: dict[str, s.Declaration]) -> None:
-        self._rows = RowSelection(table)
+    def __init__(self, rows: RowSelection, components: dict[str, s.Declaration]) -> None:
+        self._rows = rows
         self.runtime = ObservedRuntime(s.Scenario(components, ()))
         self._next_id = 0
         self._made: dict[str, int] = {}
@@ -67,13 +68,9 @@ class Prediction:
 
     def _choices(
         self, ongoing: OperationInProgress, member: Member | None, row: Row, answer: str
-    ) -> list[tuple[str, ...]]:
+    ) -> tuple[tuple[str, ...], ...]:
         connectable = member.declaration.connectable if member else self._declares_connectable(ongoing.step)
-        listener = Listener(connectable, False, len(undone_by(ongoing, member)) if member else 0)
-        outcomes = [o for o in row.outcomes if answer in o.answer] or row.outcomes[:1]
-        patterns = [pattern(outcome, listener) for outcome in outcomes]
-        least = [tuple(hook for hook, optional in tokens if not optional) for tokens in patterns]
-        return list(dict.fromkeys((*least, *(tuple(hook for hook, _ in tokens) for tokens in patterns))))
+        return _callbacks(row, answer, Listener(connectable, False, len(undone_by(ongoing, member)) if member else 0))
 
     def carry_out(self, step: s.ContainerCall, way: Way) -> OperationInProgress:
         """Carry ``step`` out in that ``way``, one of ``ways``."""
@@ -109,6 +106,15 @@ class Prediction:
             self._made[step.component] = self._made.get(step.component, 0) + 1
             return step.component, self._made[step.component]
         return "", 0
+
+
+@functools.cache
+def _callbacks(row: Row, answer: str, listener: Listener) -> tuple[tuple[str, ...], ...]:
+    """The sequences of callbacks that ``row`` permits with ``answer``, the shortest ones first."""
+    outcomes = [o for o in row.outcomes if answer in o.answer] or row.outcomes[:1]
+    patterns = [pattern(outcome, listener) for outcome in outcomes]
+    least = [tuple(hook for hook, optional in tokens if not optional) for tokens in patterns]
+    return tuple(dict.fromkeys((*least, *(tuple(hook for hook, _ in tokens) for tokens in patterns))))
 
 
 def _copied(runtime: ObservedRuntime) -> ObservedRuntime:

@@ -210,7 +210,8 @@ def _returned_to(
     if requirement and not (yield from takes(runtime, "protected-recursion", reading)):
         yield check.fail(
             reading,
-            expected=f"calls that come back to '{member.lane}' while it waits for them fare as declared",
+            expected=f"what is declared of calls that come back to '{member.lane}' while it waits for them: "
+            f"protected-recursion = {runtime.ics.reading('protected-recursion')}",
             observed={"enter": "one was let in", "refuse": "one was refused", "wait": "one waited for ever"}[reading],
             at=events,
             requirement=requirement,

@@ -9,6 +9,7 @@ import pytest
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.reference_models.model.prediction import Prediction
+from ucm_cts.reference_models.model.row_selection import RowSelection
 
 COMPONENTS = {
     "client": s.Declaration(("in",), ("out", "more")),
@@ -61,7 +62,7 @@ def _check(model: Prediction) -> None:
 @pytest.mark.parametrize("seed", range(5))
 def test_indexes_follow_the_model(seed: int) -> None:
     draw = random.Random(seed)
-    model = Prediction(load_life_cycle(), COMPONENTS)
+    model = Prediction(RowSelection(load_life_cycle()), COMPONENTS)
     model.perform(s.CreateContainer("box"))
     connected = 0
     for number in range(300):

@@ -18,6 +18,7 @@ from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
 from ucm_cts.reference_models.model.prediction import Prediction
+from ucm_cts.reference_models.model.row_selection import RowSelection
 from ucm_cts.reference_models.model.runtime import Member
 
 WAYS_TO_A_ROW = 4
@@ -69,7 +70,7 @@ def _explore(table: LifeCycleTable, configuration: Configuration) -> Iterator[tu
     kept: Counter[tuple[str, tuple[bool, ...]]] = Counter()
     seen: set[object] = set()
     queue: deque[tuple[tuple[ContainerCall, ...], Prediction]] = deque()
-    queue.append(((), Prediction(table, configuration.components)))
+    queue.append(((), Prediction(RowSelection(table), configuration.components)))
     while queue:
         path, now = queue.popleft()
         if now.runtime.destroyed:

@@ -15,6 +15,7 @@ from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.prediction import Prediction, Way
+from ucm_cts.reference_models.model.row_selection import RowSelection
 
 State = tuple[object, ...]
 """The part of a runtime that decides its further behaviour: phases, members, connections."""
@@ -33,7 +34,7 @@ def derive(table: LifeCycleTable, setting: Setting, readings: Mapping[str, str])
 class _Derivation:
     def __init__(self, table: LifeCycleTable, ics: Ics, setting: Setting) -> None:
         self.setting = setting
-        self.first = Prediction(table, dict(setting.components))
+        self.first = Prediction(RowSelection(table), dict(setting.components))
         self.permission = Permission(table, ics)
         self.outputs: dict[Permitted, int] = {}
 

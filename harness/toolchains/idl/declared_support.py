@@ -10,6 +10,7 @@ from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF
 
 ASKED_OF: dict[str, tuple[str, ...]] = {
     "R-12.4.1-11": ("native-types=supported",),
+    "R-12.4.1-12": ("idl-enumerator-order=kept",),
     "R-12.4.1.1-0[23]": ("native-types=supported",),
     "R-14-04": ("native-types=supported",),
     "R-12.4.1.3-02": ("idl-enumerator-values=observed", "idl-enumerator-values=default-value"),

@@ -249,8 +249,8 @@ def templated(vendor: Vendor, fact: exp.Templated) -> list[Wrong]:
         wrong = not required <= found
     if not wrong:
         return []
-    expected = ", ".join(sorted(required)).upper() or "no parameters"
-    return [Wrong(f"template parameters {expected}", ", ".join(sorted(found)) or "none", module.place)]
+    expected = f"template parameters {', '.join(sorted(required)).upper()}" if required else "no template parameters"
+    return [Wrong(expected, ", ".join(sorted(found)) or "none", module.place)]
 
 
 def parametrized(vendor: Vendor, fact: exp.Parametrized) -> list[Wrong]:

@@ -16,6 +16,7 @@ from ucm_cts.harness.exploring.novelty import Guide
 from ucm_cts.harness.exploring.predicted_coverage import transitions
 from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.purposes.scripts import Script, problems, to_scenario
+from ucm_cts.reference_models.model.row_selection import RowSelection
 
 pytestmark = pytest.mark.slow
 
@@ -37,12 +38,12 @@ def drawn(seed: int, number: int) -> list[Scenario]:
 
 def test_drawn_scenarios_can_be_saved_read_and_predicted() -> None:
     scenarios = drawn(1, 300)
-    table = load_life_cycle()
+    rows = RowSelection(load_life_cycle())
     for scenario in scenarios:
         script = msgspec.convert({"scenario": "drawn", **msgspec.to_builtins(scenario)}, Script)
         assert to_scenario(script) == scenario
         assert problems(script) == []
-        assert bool(transitions(table, scenario)) == bool(scenario.steps)
+        assert bool(transitions(rows, scenario)) == bool(scenario.steps)
     assert len({msgspec.json.encode(scenario) for scenario in scenarios}) > 250
     assert max(len(scenario.steps) for scenario in scenarios) > LONGEST // 2
 
@@ -50,11 +51,11 @@ def test_drawn_scenarios_can_be_saved_read_and_predicted() -> None:
 def test_transitions_follow_the_model() -> None:
     one = s.AddComponent("one"), s.Start(), s.Stop()
     scenario = Scenario({"one": s.Declaration()}, one)
-    found = transitions(load_life_cycle(), scenario)
+    found = transitions(RowSelection(load_life_cycle()), scenario)
     assert ("then", "configured/start/", "ready/stop/started") in found or any(
         "configured/start" in before and "ready/stop" in after for _, before, after in (t for t in found if len(t) == 3)
     )
-    assert transitions(load_life_cycle(), msgspec.structs.replace(scenario, steps=one[:2])) < found
+    assert transitions(RowSelection(load_life_cycle()), msgspec.structs.replace(scenario, steps=one[:2])) < found
 
 
 def test_rare_transitions_are_preferred() -> None:

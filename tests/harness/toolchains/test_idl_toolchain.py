@@ -12,10 +12,12 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.mutants.toolchain.registry import Mutant, Variant, mutants, variants
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.selftest.matrix import MutantResult
-from ucm_cts.harness.selftest.toolchains import all_subjects, examine_toolchain
+from ucm_cts.harness.selftest.toolchains import all_subjects, declaring, examine_toolchain
 from ucm_cts.harness.toolchains.corpus.legal_models import legal_models
 from ucm_cts.harness.toolchains.idl.comparing import compare
+from ucm_cts.harness.toolchains.idl.declared_support import not_applicable
 from ucm_cts.harness.toolchains.idl.language.reading import read_files
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
 from ucm_cts.reference_models.mapping.idl.declarations import Module
@@ -23,6 +25,8 @@ from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
 pytestmark = pytest.mark.slow
+
+DEFAULTS = default_statement().readings
 
 SHOWN_ELSEWHERE = (
     *("names_clash_in_idl", "keywords_as_they_are", "less_common_keywords_as_they_are", "refuses_keywords"),
@@ -33,6 +37,17 @@ SHOWN_ELSEWHERE = (
 MUTANTS = {name: mutant for name, mutant in mutants().items() if mutant.task == "idl" and not mutant.claims}
 VARIANTS = {name: variant for name, variant in variants().items() if variant.task == "idl" and not variant.claims}
 """Those about the standard property of 10.2 are in test_standard_properties.py."""
+
+DECLARING = [
+    variant
+    for name, variant in VARIANTS.items()
+    if any(DEFAULTS[o] != v for o, v in (reading.split("=") for reading in variant.declares))
+    and name != "equivalent_syntax_besides"
+]
+"""Those that declare what does not hold by default. One of them shows no more than that other files are permitted."""
+
+SEEN_ELSEWHERE = {"R-12-01", "R-9.2.9.4-04"}
+"""The requirements that no comparison of one model sees."""
 
 
 @functools.cache
@@ -76,7 +91,7 @@ def test_every_requirement_with_a_rule_has_a_mutant_and_a_model() -> None:
     seen = {r for subject in subjects() for r in compare(subject.expected, subject.files, values).exercised}
     beside = changed(VARIANTS["with_equivalents"])
     seen |= {r for one in beside for r in compare(one.expected, one.files, {"idl-output": "both"}).exercised}
-    assert testable - seen == {"R-12-01", "R-9.2.9.4-04"}, "no comparison of one model sees these"
+    assert testable - seen == SEEN_ELSEWHERE
 
 
 @pytest.mark.parametrize("mutant", [m for n, m in MUTANTS.items() if n not in SHOWN_ELSEWHERE], ids=lambda m: m.name)
@@ -103,6 +118,17 @@ def test_variants_are_spared(variant: Variant) -> None:
     readings = dict(reading.split("=") for reading in variant.declares)
     for subject in subjects[:3]:
         assert not compare(subject.expected, subject.files, readings).differences, subject.name
+
+
+@pytest.mark.parametrize("variant", DECLARING, ids=lambda v: v.name)
+def test_no_declaration_leaves_a_requirement_undecided(variant: Variant) -> None:
+    """What a vendor may leave out and declares to leave out is not asked."""
+    generate = variant.derive(reference()).generators["idl"]
+    statement = declaring(variant.declares)
+    exercised: set[str] = set()
+    for subject in subjects():
+        exercised |= compare(subject.expected, generate(subject.model), statement.readings).exercised.keys()
+    assert RULE_OF.keys() - exercised - not_applicable(statement).keys() == SEEN_ELSEWHERE
 
 
 def test_omniidl_spares_the_variants() -> None:
