@@ -114,7 +114,8 @@ def _incident(item: IncidentReport) -> Text:
     when = f", during {during}" if during else ", between two calls"
     what = "fails no requirement: " if is_unexplained(item.execution) else ""
     often = f" {item.occurrences} times" if item.occurrences > 1 and item.incident.kind != "untried" else ""
-    detail = one_line(f"{what}{item.incident.detail}{when if during or what else ''}", 300)
+    said = f": {item.incident.last_line}" if item.incident.last_line else ""
+    detail = one_line(f"{what}{item.incident.detail}{when if during or what else ''}{said}", 300)
     return cut(Text.assemble(("⚡ ", "magenta"), (f"{item.incident.kind}{often}", "bold magenta"), f"  {detail}"))
 
 

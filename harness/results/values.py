@@ -52,6 +52,14 @@ class Incident(Value, frozen=True):
     stacks: str = ""
     reproduced: bool = True
 
+    @property
+    def last_line(self) -> str:
+        """The last line that a host printed before it ended by itself, but for stack frames of Java; empty if there is none."""
+        if self.kind not in ("crash", "exit"):
+            return ""
+        lines = (line.strip() for line in reversed(self.stacks.splitlines()))
+        return next((line for line in lines if line and not line.startswith("at ")), "")
+
 
 class Execution(Value, frozen=True):
     """One scenario run once: the trace, whole or (after an incident) as far as it is known, in the script's own names."""

@@ -19,7 +19,7 @@ from ucm_cts.reference_models.model.links import differ, is_misfit
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Connection, Container, Member, has_meaningless_values, raises
-from ucm_cts.reference_models.model.service_policies import has_several_clocks
+from ucm_cts.reference_models.model.service_policies import has_second_timers, has_several_clocks
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
 
@@ -242,8 +242,10 @@ class RowSelection:
             ongoing.forgiving = True
         elif without_policy(runtime, container):
             ongoing.forgiving = True  # whether it may be refused is execution_policy_given's matter
-        elif any(may_refuse_values(m.declaration, runtime.ics) for m in members):
-            ongoing.forgiving = True  # whether it may be refused is extended_policy_supported's matter
+        elif any(may_refuse_values(m.declaration, runtime.ics) or has_second_timers(m.declaration) for m in members):
+            ongoing.forgiving = (
+                True  # whether it may be refused is the matter of extended_policy_supported and timers_supported
+            )
         ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")

@@ -51,6 +51,11 @@ def has_timers(declaration: Declaration | None, *definitions: str) -> bool:
     return declaration is not None and any(p.definition in (definitions or TIMERS) for p in declaration.policies)
 
 
+def has_second_timers(declaration: Declaration) -> bool:
+    """Has the component two policies for timers of one kind? It may be refused for that, at its start at latest."""
+    return len(declaration.policies) > 1 and any(len(policies_of(declaration, one)) > 1 for one in TIMERS)
+
+
 def only_service(declaration: Declaration, *definitions: str) -> bool:
     """Can only policies of these definitions be a reason to refuse this component?"""
     services = policies_of(declaration, *definitions)

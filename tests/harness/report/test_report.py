@@ -39,7 +39,7 @@ from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import write_report
 from ucm_cts.harness.results.foreign import LONGEST, LONGEST_STACKS, clean, clean_report, one_line
 from ucm_cts.harness.results.tally import ended_early
-from ucm_cts.harness.results.values import RequirementResult
+from ucm_cts.harness.results.values import Incident, RequirementResult
 
 
 @pytest.fixture(scope="module")
@@ -435,6 +435,31 @@ def test_the_summary_is_plain_without_a_terminal_and_short() -> None:
     assert lines[at + 3] == ""
     assert any(line.startswith("⚡ crash  signal 11") for line in lines)
     assert "somewhere/report.html" in lines[-1].replace("\\", "/")
+
+
+@pytest.mark.parametrize(
+    ("printed", "told"),
+    [
+        (
+            "Traceback (most recent call last):\n  File ...\nZeroDivisionError: division by zero\n",
+            ": ZeroDivisionError",
+        ),
+        ("terminate called\n  what():  no such port\n", ": what(): no such port"),
+        ("Exception: lost\n\tat org.acme.Main.main(Main.java:3)\n", ": Exception: lost"),
+        ("", ""),
+    ],
+)
+def test_the_summary_ends_with_what_a_host_said_last(printed: str, told: str) -> None:
+    item = sample().incidents[0]
+    died = msgspec.structs.replace(item, incident=Incident("exit", "exit status 1", printed))
+    shown = io.StringIO()
+    Console(file=shown, width=160).print(summary(clean_report(sample(incidents=(died,))), None))
+    line = next(line for line in shown.getvalue().splitlines() if line.startswith("⚡"))
+    before, _, after = line.partition(told) if told else (line, "", "")
+    assert before.startswith("⚡ exit  exit status 1")
+    assert ": " not in before
+    assert not told or line != before, line
+    assert "\tat" not in after
 
 
 # Foreign text

@@ -338,6 +338,31 @@ class refuses_unknown_policies_at_start(Base):
         super()._check_startable()
 
 
+class _ChecksPoliciesAtStart(Base):
+    def _check_policies(self, implementation: Implementation) -> None:
+        pass
+
+    def _check_startable(self) -> None:
+        for member in self.members.values():
+            super()._check_policies(member.implementation)
+        super()._check_startable()
+
+
+@variant_of(*POLICIES, "10.1.4")
+class refuses_policies_at_start(_ChecksPoliciesAtStart):
+    """A component is added whatever policies it has; if they cannot be applied, its container does not start."""
+
+
+@variant_of("10.5")
+class refuses_extended_policies_at_start(_ChecksPoliciesAtStart):
+    """The same with the policies of 10.5."""
+
+
+@variant_of("10.3", readings={"second-timer-policy": "refused"})
+class refuses_second_timer_policies_at_start(_ChecksPoliciesAtStart):
+    """The same with policies for timers: of a kind a component may have one."""
+
+
 @replaces("_execute_on_own_thread", clauses=POLICIES)
 def executes_active_components_by_period(self: Base, member: Member, work: Callable[[], T]) -> T:
     """A call of an active component is executed when the component's next period begins."""
