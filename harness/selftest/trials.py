@@ -27,7 +27,7 @@ from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.failures import length
 from ucm_cts.harness.results.statement import Statement
-from ucm_cts.harness.results.values import Execution
+from ucm_cts.harness.results.values import Execution, FrameworkReport
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.selftest.wording import wrongly_said
@@ -226,7 +226,10 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
                 derived = [purpose for purpose in purposes if purpose.of_dimensions]
                 _check(ran, subject, campaign, written, may_end=False)
                 _check(ran, subject, campaign, derived, may_end=not how.whole)
-            ran.incidents = _incidents_of(campaign)
+            report = campaign.report()
+            ran.incidents = _incidents_of(report)
+            if not subject.breaks and not how.beginning:
+                ran.trouble = _undecided(report, purposes)
     except (HostUnavailable, WrongUse) as problem:
         ran.trouble = str(problem)
     ran.seconds = round(time.monotonic() - began, 3)
@@ -256,8 +259,15 @@ def _is_killed(ran: _Trial, subject: Subject) -> bool:
     )
 
 
-def _incidents_of(campaign: Campaign) -> tuple[str, ...]:
-    incidents = (item.incident for item in campaign.report().incidents)
+def _undecided(report: FrameworkReport, purposes: Iterable[TestPurpose]) -> str:
+    """The requirements that ``purposes`` ask for and that are not decided, told as a trouble: what a vendor may declare leaves none so."""
+    asked = {requirement for purpose in purposes for requirement in purpose.requirements}
+    unsettled = [r.id for r in report.requirements if r.id in asked and r.verdict in ("error", "inconclusive")]
+    return f"undecided: {', '.join(unsettled)}" if unsettled else ""
+
+
+def _incidents_of(report: FrameworkReport) -> tuple[str, ...]:
+    incidents = (item.incident for item in report.incidents)
     return tuple(dict.fromkeys(f"{incident.kind}: {incident.detail.splitlines()[0]}" for incident in incidents))
 
 

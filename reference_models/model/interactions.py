@@ -83,8 +83,8 @@ class Interactions:
             operation.end = end
 
     def links_of(self, member: Member) -> list[LinkState]:
-        """The links that provided port elements of ``member`` are attached to."""
-        return [link for link in self.links.values() if any(end.member is member for end in link.takers)]
+        """The links that port elements of ``member`` are attached to."""
+        return [k for k in self.links.values() if any(end.member is member for end in (*k.takers, *k.senders))]
 
     def is_mistyped(self, link: LinkState) -> bool:
         """Did something of another type come to a body through it? Then it is open which message that was."""
@@ -92,9 +92,8 @@ class Interactions:
 
     def is_used_elsewhere(self, member: Member) -> bool:
         """Does a link join a provided port element of ``member`` with an end in another container?"""
-        return any(
-            end.member.container is not member.container for link in self.links_of(member) for end in link.senders
-        )
+        providing = (k for k in self.links_of(member) if any(end.member is member for end in k.takers))
+        return any(end.member.container is not member.container for link in providing for end in link.senders)
 
     def has_refused(self, link: LinkState, role: str) -> bool:
         """Was an end of ``role`` refused?"""

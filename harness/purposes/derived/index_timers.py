@@ -323,7 +323,7 @@ def _unusual() -> TestPurpose:
 def _dates() -> list[TestPurpose]:
     """Dates that come, that have passed, and that are far away; by the clock that the vendor declares."""
     found = []
-    for declared, clock in (("observed|local", LOCAL), ("synchronized", SYNCHRONIZED)):
+    for declared, clock in (("observed|local", LOCAL), ("observed|synchronized", SYNCHRONIZED)):
         orders = (
             *READ_CLOCKS,
             dated(5, 2, 1, clock),

@@ -58,7 +58,7 @@ def log_message_purposes() -> list[TestPurpose]:
             "log/wide texts",
             "Messages are written that are empty, long, not ASCII or beyond the Basic Multilingual Plane.",
             ("R-10.1.4.2-47", "R-10.1.4.2-26"),
-            _written("warning", _WIDE, more=1),
+            _written("error", _WIDE, more=1),
             under=("log-message=wide-unbounded",),
         ),
         _purpose(

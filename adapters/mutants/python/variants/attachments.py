@@ -29,6 +29,17 @@ def keeps_what_is_attached(self: Base, member: Member) -> bool:
     return bool(self._connections_from(member) or self._takers_of(member))
 
 
+@refuses_if(
+    "_check_removable",
+    clauses=_CLAUSES,
+    readings={"remove-while-connected": "cascade", "remove-provider-in-use": "refuse"},
+)
+def keeps_what_connectors_use(self: Base, member: Member) -> bool:
+    """remove_component refuses what is attached to a connector, also a client or an emitter; what is connected without one is disconnected."""
+    targets = [connection.target for connection in self._connections_from(member)]
+    return bool(self._takers_of(member)) or any(link._is_behind(t) for link in self.manager.links for t in targets)
+
+
 @variant_of(*_CLAUSES)
 class disconnects_senders_without_takers(Base):
     """When the last server or receiver of a connection is removed its clients or emitters are disconnected."""
