@@ -166,6 +166,10 @@ class _Reading:
         """Was the call impossible when it was made, and is it still?"""
         return not call.possible and not self._is_possible(call.call)
 
+    def waits_for_mending(self, call: _OpenCall) -> bool:
+        """Is it a call of a body that may wait until a broken link is mended?"""
+        return bool(self.broken) and isinstance(call.call, t.Request) and self.is_left_open(call)
+
     def tops(self) -> Iterator[t.Event]:
         """What each thread is doing last."""
         return (stack[-1] for stack in self.threads.values() if stack)
@@ -195,6 +199,8 @@ def lost_call(execution: Execution) -> t.Call | t.Request | None:
     if incident is None or reading.has_bodies_inside():
         return None
     waiting = [reading.calls[event.n] for event in reading.tops() if event.n in reading.calls]
+    if any(reading.waits_for_mending(call) for call in waiting):
+        return None  # the others may wait for the component that made it
     hangs = incident.kind == "hang"
     lost = [call.event for call in waiting if call.lost or (call.possible and not hangs)]
     return max(lost, key=lambda event: event.n, default=None)

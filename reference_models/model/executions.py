@@ -309,9 +309,14 @@ def without_policy(runtime: Runtime, container: Container) -> list[Member]:
     return [m for m in members if not protection_of(m.declaration)]
 
 
+def guards_direct_calls(ics: Ics) -> bool:
+    """Does the container guard the references that the test itself calls (``raw-references``)?"""
+    return ics.reading("raw-references") != "unprotected"
+
+
 def is_guarded(ics: Ics, *executions: Execution) -> bool:
     """Must the container keep these executions apart, or did the test enter through a reference that is declared unprotected?"""
-    return ics.reading("raw-references") != "unprotected" or not any(e.call and e.call.by == "test" for e in executions)
+    return guards_direct_calls(ics) or not any(e.call and e.call.by == "test" for e in executions)
 
 
 def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:

@@ -7,7 +7,13 @@ from collections.abc import Iterator
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Exit
 from ucm_cts.reference_models.model.execution_policies import extended_policy, managed_ports
-from ucm_cts.reference_models.model.executions import BusinessCall, Execution, goals_of
+from ucm_cts.reference_models.model.executions import (
+    BusinessCall,
+    Execution,
+    goals_of,
+    guards_direct_calls,
+    is_guarded,
+)
 from ucm_cts.reference_models.model.method_calls import NEVER, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operational_phase import Phase
@@ -61,7 +67,7 @@ def _phase(runtime: ObservedRuntime, of: Phase, policy: s.Policy, invocations: l
         if not enter.n < execution.enter.n < closed:
             continue
         is_paced = execution.way == "run" or execution.way in managed
-        if is_paced and not _leads_back(execution):
+        if is_paced and not _leads_back(execution) and is_guarded(runtime.ics, execution):
             left = execution.left if execution.over else max(ended_at, execution.enter.t)
             found = phase.executions if execution.enter.n < until else phase.at_its_end
             found.append(PacedExecution(execution, left, by_execution.get(id(execution))))
@@ -107,6 +113,8 @@ def _invocations(runtime: ObservedRuntime) -> Iterator[Invocation]:
             method, moment = None, operation.begin.t
             over = operation.end.n if operation.end is not None else NEVER
         else:
+            continue
+        if call.by == "test" and not guards_direct_calls(runtime.ics):
             continue
         port = executions[0].enter.port or "" if executions else call.port or ""
         yield Invocation(call.n, moment, port, call, method, over, executions)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.paced_events import PacedExecution, PacedPhase
+from ucm_cts.reference_models.model.paced_events import MILLISECOND, PacedExecution, PacedPhase
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, paced_phases
 
 READINGS = ("one-a-period", "all-a-period", "at-once-when-idle")
@@ -107,7 +107,7 @@ def too_late(
         for one in other.executions
     ]
     for j, execution in enumerate(executions):
-        asked = min(e.asked for e in executions[j:] if e.asked <= execution.t)
+        asked = min(e.asked + _on_its_way(runtime, e) for e in executions[j:] if e.asked <= execution.t)
         free = max(asked, phase.first(latest=True), phase.busy_until(execution.t))
         waited = False
         if j:
@@ -121,6 +121,14 @@ def too_late(
         if phase.policy.definition == s.PERIODIC_ACTIVE and runtime.ics.reading("first-period") == "offset-plus-period":
             due += phase.period
         yield execution, waited, max(0, execution.t - due - late)
+
+
+def _on_its_way(runtime: ObservedRuntime, execution: PacedExecution) -> int:
+    """For how many nanoseconds the connector may have kept the message that asked for it; 0 of a call, and where push waits for receivers."""
+    called = execution.invocation.message if execution.invocation is not None else None
+    is_pushed = called is not None and called.link is not None and called.link.connector == s.MESSAGE_CONNECTOR
+    may_be_kept = is_pushed and runtime.ics.reading("message-delivery") != "synchronous"
+    return runtime.scenario.patience * MILLISECOND if may_be_kept else 0
 
 
 def in_burst(executions: Iterable[PacedExecution], period: int) -> bool:

@@ -7,6 +7,9 @@ comes back with answers by its value.
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Sequence
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.platform_interfaces import REQUEST, REQUEST_RESPONSE, RESPONSE
 from ucm_cts.reference_models.model.extended_links import changes_between, end_at
@@ -102,6 +105,7 @@ def _pair_callbacks(found: Requests) -> None:
     for callback in found.callbacks:
         moment = callback.delivery.enter.n
         given = [a for a in found.answers if a.moment < moment and a.value == callback.value]
+        _pair_otherwise(found, callback, given)
         own = [a for a in given if a.asked is not None and a.asked.client.is_of_port(callback.client)]
         by_number = [a for a in own if a.asked is not None and a.asked.given == callback.number]
         fresh = [a for a in (*by_number, *own) if not a.callbacks]
@@ -115,6 +119,25 @@ def _pair_callbacks(found: Requests) -> None:
             _pair_by_number(found, callback)
         if callback.answer is not None:
             callback.answer.callbacks.append(callback)
+
+
+def _pair_otherwise(found: Requests, callback: Callback, given: Sequence[Answer]) -> None:
+    """A synchronous server does not learn identifiers: which of several equal requests it answered shows when a response tells one."""
+    own = [a for a in found.asked if not a.waits and a.client.is_of_port(callback.client) and a.given == callback.number]
+    if any(answer.asked in own for answer in given):
+        return
+    for answer, other in itertools.product(given, own):
+        entry, asked = answer.to, answer.asked
+        if entry is None or asked is None or entry.number is not None or answer.callbacks:
+            continue
+        was_asked = other.value == asked.value and other.call.request.n < entry.delivery.enter.n
+        if was_asked and not any(one.callbacks for one in other.answers):
+            asked.entries, other.entries = other.entries, asked.entries
+            for received in asked.entries:
+                received.asked = asked
+            for received in other.entries:
+                received.asked = other
+            return
 
 
 def _pair_by_number(found: Requests, callback: Callback) -> None:

@@ -207,6 +207,8 @@ def _returned_to(
     events: tuple[int, ...],
 ) -> Conclusions:
     requirement = policies.exclusion(member.declaration, runtime.ics, waiting.way, port)
+    if not ex.is_guarded(runtime.ics, waiting):
+        return
     if requirement and not (yield from takes(runtime, "protected-recursion", reading)):
         yield check.fail(
             reading,
@@ -229,7 +231,7 @@ def no_overlap_under_stress(check: Property, runtime: ObservedRuntime, event: St
         return
     ports = [runtime.ports[ref] for ref in step.refs]
     requirement = policies.exclusion(member.declaration, runtime.ics, ports[0], ports[-1])
-    if runtime.ics.reading("raw-references") == "unprotected":
+    if not ex.guards_direct_calls(runtime.ics):
         return
     if not requirement:
         if event.overlaps and policies.protection_of(member.declaration) == "unprotected":

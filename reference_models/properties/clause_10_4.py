@@ -46,7 +46,8 @@ def called_back_alone(check: Property, runtime: ObservedRuntime, execution: ex.E
         return
     declaration = runtime.scenario.components[enter.component]
     for other in execution.met:
-        if policies.exclusion(declaration, runtime.ics, execution.way, other.way):
+        excluded = policies.exclusion(declaration, runtime.ics, execution.way, other.way)
+        if excluded and ex.is_guarded(runtime.ics, execution, other):
             yield check.fail(
                 "inside",
                 expected=f"nothing else executes '{lane(*enter.body)}' when {enter.method} enters it",

@@ -127,6 +127,17 @@ def test_a_body_that_is_inside_keeps_its_caller_waiting() -> None:
     assert story.calls(7).blames() == "R-12.10-10"
 
 
+def test_a_call_waits_for_a_component_that_waits_for_a_broken_link() -> None:
+    """The client, which is executed by a thread of its own, calls through what is broken; so does nobody in the other story."""
+    plain = (*LINKED[s.SERVICE_CONNECTOR][:-1], s.Break("line"), PLAIN[-1])
+    for entered, blamed in ((True, ""), (False, "R-11.2.3-03")):
+        story = Story(plain=plain)
+        if entered:
+            story.put(t.Enter, thread=2, component="client", instance=1, hook="exchange", port="go", value=7)
+            story.put(t.Request, thread=2, component="client", instance=1, port="out", value=7)
+        assert story.blames() == blamed
+
+
 def test_calls_before_the_start_may_wait() -> None:
     early = Story(plain=(*PLAIN[:4], PLAIN[6]))
     assert early.blames() == ""

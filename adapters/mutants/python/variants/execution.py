@@ -393,3 +393,18 @@ class protects_what_components_call(Base):
 
     def _interfaces_of(self, target: PortElementObject) -> list[Interface | None]:
         return []
+
+
+@variant_of("10.3", readings={"raw-references": "unprotected"})
+class protects_what_timers_call(protects_what_components_call):
+    """The same, beside timers."""
+
+
+@variant_of("10.4", readings={"raw-references": "unprotected"})
+class protects_what_extended_connectors_call(protects_what_components_call):
+    """The same, beside requests and shared data."""
+
+
+@variant_of("10.5", readings={"raw-references": "unprotected"})
+class paces_what_components_call(protects_what_components_call):
+    """The same; executions by the policies of 10.5 are paced where components call."""

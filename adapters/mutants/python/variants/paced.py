@@ -5,11 +5,14 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TypeVar
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import PACED, Base, variant_of
+from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.execution import Trigger
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.pacing import Invocation, Pace, PacedExecutor
@@ -263,3 +266,12 @@ class serves_the_last_first(PacedExecutor):
 
     def _choose(self) -> Invocation:
         return max(self._waiting, key=lambda invocation: invocation.asked)
+
+
+@replaces("_deliver", clauses=PACED)
+def delivers_messages_after_a_while(self: Link, taker: Taker, method: str) -> None:
+    """A message of a connection is delivered 300 ms after it was pushed."""
+    while (message := taker.messages.get()) is not None:
+        time.sleep(0.3)
+        with suppress(Exception):
+            taker.enter(method, [message])

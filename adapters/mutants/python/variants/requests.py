@@ -5,7 +5,9 @@ from __future__ import annotations
 import functools
 import itertools
 import threading
+import time
 from collections.abc import Callable
+from typing import Any
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.platform_interfaces import RESPONSE
@@ -90,6 +92,26 @@ class calls_back_on_threads_of_their_own(Link):
             self.__dict__["waiting"].pop()()
         except Exception:  # noqa: BLE001 - the client's
             return
+
+
+@variant_of(*REQUESTS, readings={"response-order": "unordered"})
+class serves_the_latest_request_first(Link):
+    """Of requests that wait for the server the latest is served first."""
+
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self.waiting: list[Callable[[], object]] = []
+
+    def _post(self, end: End, work: Callable[[], object]) -> None:
+        if end.kind.side == "server":
+            self.waiting.append(work)
+            super()._post(end, self._serve_latest)
+        else:
+            super()._post(end, work)
+
+    def _serve_latest(self) -> None:
+        time.sleep(0.01)  # until there are several
+        self.waiting.pop()()
 
 
 @replaces("_respond", clauses=REQUESTS, readings={"unknown-id": "ignored"})
