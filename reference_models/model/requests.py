@@ -123,7 +123,9 @@ def _pair_callbacks(found: Requests) -> None:
 
 def _pair_otherwise(found: Requests, callback: Callback, given: Sequence[Answer]) -> None:
     """A synchronous server does not learn identifiers: which of several equal requests it answered shows when a response tells one."""
-    own = [a for a in found.asked if not a.waits and a.client.is_of_port(callback.client) and a.given == callback.number]
+    own = [
+        a for a in found.asked if not a.waits and a.client.is_of_port(callback.client) and a.given == callback.number
+    ]
     if any(answer.asked in own for answer in given):
         return
     for answer, other in itertools.product(given, own):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import CallMethod, Declaration, Policy, Step
+from ucm_cts.harness.purposes.derived.through_components import through_components
 from ucm_cts.harness.purposes.derived.timer_steps import (
     ACTIVE,
     INSIDE,
@@ -53,6 +54,7 @@ def index_timer_purposes() -> list[TestPurpose]:
         _phases(),
         _startup(),
         _protection(),
+        through_components(_protection()),
         _missed(),
         _raising(),
         _unusual(),

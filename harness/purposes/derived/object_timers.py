@@ -20,6 +20,7 @@ from ucm_cts.harness.purposes.derived.object_timer_steps import (
     repeated,
     scheduling,
 )
+from ucm_cts.harness.purposes.derived.through_components import through_components
 from ucm_cts.harness.purposes.derived.timer_steps import (
     ACTIVE,
     INSIDE,
@@ -64,6 +65,7 @@ def object_timer_purposes() -> list[TestPurpose]:
         _phases(),
         _startup(),
         _protection(),
+        through_components(_protection()),
         _missed(),
         _raising(),
         _unusual(),

@@ -10,6 +10,7 @@ from ucm_cts.adapters.contract.data_types import Integer, message_interface
 from ucm_cts.adapters.contract.scenario import Declaration, Hook, Policy, Scenario, Step
 from ucm_cts.harness.purposes.connections import MESSAGE, provided_end, required_end
 from ucm_cts.harness.purposes.derived.paced_policies import NAMES, OTHER_PORT, PORT, policy, purposes_about
+from ucm_cts.harness.purposes.derived.through_components import through_components
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _INSIDE, _GOT = "inside", "got"
@@ -29,9 +30,10 @@ _EACH_ONCE = {_PERIODIC: "2-08 2-09", _SPORADIC: "2-13 2-14"}
 
 def paced_call_purposes() -> list[TestPurpose]:
     """Bursts, single calls, offsets, long executions, messages, phases, several components; of both policies."""
-    purposes = [_offsets()]
+    purposes = [_offsets(), through_components(_offsets())]
     for definition in (_PERIODIC, _SPORADIC):
         purposes += [of(definition) for of in (_bursts, _single, _held, _phases, _several)]
+        purposes.append(through_components(_held(definition)))
         purposes += _messages(definition)
     return purposes
 

@@ -22,6 +22,7 @@ from ucm_cts.harness.purposes.derived.request_configuration import (
     Configuration,
     Kind,
 )
+from ucm_cts.harness.purposes.derived.through_components import through_components
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.4.1"
@@ -68,6 +69,7 @@ def request_purposes() -> list[TestPurpose]:
         _apart(),
         _ports(),
         _protected(),
+        through_components(_protected()),
         _faults(),
         _failing(),
         _phases(),

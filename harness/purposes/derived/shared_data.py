@@ -22,6 +22,7 @@ from ucm_cts.harness.purposes.derived.shared_data_configuration import (
     purpose_about,
 )
 from ucm_cts.harness.purposes.derived.shared_data_freezes import freeze_purposes
+from ucm_cts.harness.purposes.derived.through_components import through_components
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _RECORD = d.Structure(
@@ -52,6 +53,7 @@ def shared_data_purposes() -> list[TestPurpose]:
         _writers(),
         _notifications(),
         _protected(),
+        through_components(_protected()),
         _types(),
         _apart(),
         _ports(),
