@@ -17,7 +17,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.mutants.cpp import COMMAND, NativeMutant, being, native_mutants
 from ucm_cts.adapters.mutants.python.subjects import CONTAINER, MUTANTS, VARIANTS, Mutant
-from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.confirmation import is_timed
 from ucm_cts.harness.execution.driver import Driver, Limits
@@ -31,7 +31,7 @@ from ucm_cts.harness.results.values import Execution, FrameworkReport
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.selftest.wording import wrongly_said
-from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.harness.statement.applicability import purposes_for, why_not
 from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
@@ -229,7 +229,7 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
             report = campaign.report()
             ran.incidents = _incidents_of(report)
             if not subject.breaks and not how.beginning:
-                ran.trouble = _undecided(report, purposes)
+                ran.trouble = _undecided(report, purposes, statement)
     except (HostUnavailable, WrongUse) as problem:
         ran.trouble = str(problem)
     ran.seconds = round(time.monotonic() - began, 3)
@@ -259,10 +259,13 @@ def _is_killed(ran: _Trial, subject: Subject) -> bool:
     )
 
 
-def _undecided(report: FrameworkReport, purposes: Iterable[TestPurpose]) -> str:
-    """The requirements that ``purposes`` ask for and that are not decided, told as a trouble: what a vendor may declare leaves none so."""
+def _undecided(report: FrameworkReport, purposes: Iterable[TestPurpose], statement: Statement) -> str:
+    """The requirements that ``purposes`` ask for and that are not decided, told as a trouble: what a vendor may declare leaves none so,
+    but for those that need a test facility which is not offered.
+    """
     asked = {requirement for purpose in purposes for requirement in purpose.requirements}
-    unsettled = [r.id for r in report.requirements if r.id in asked and r.verdict in ("error", "inconclusive")]
+    decidable = {r.id for r in load_requirements() if r.id in asked and why_not(r, statement) is None}
+    unsettled = [r.id for r in report.requirements if r.id in decidable and r.verdict in ("error", "inconclusive")]
     return f"undecided: {', '.join(unsettled)}" if unsettled else ""
 
 

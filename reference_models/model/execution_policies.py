@@ -120,6 +120,13 @@ def _exclusion(declaration: Declaration, ics: Ics, one: str, other: str) -> str:
     return ""
 
 
+def has_second_active(declaration: Declaration) -> bool:
+    """Has the component active policies on several port elements? Where that counts as several policies it is refused, at its start at
+    latest.
+    """
+    return len({p.port for p in declaration.policies if _PROTECTIONS.get(p.definition) == "active"} - {None}) > 1
+
+
 def is_contradictory(declaration: Declaration) -> bool:
     """Has the component more than the one execution policy that it may have (10.1.3)?"""
     if not declaration.policies:

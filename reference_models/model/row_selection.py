@@ -7,6 +7,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.execution_policies import (
+    has_second_active,
     has_unknown_policy,
     is_contradictory,
     is_plainest,
@@ -242,10 +243,8 @@ class RowSelection:
             ongoing.forgiving = True
         elif without_policy(runtime, container):
             ongoing.forgiving = True  # whether it may be refused is execution_policy_given's matter
-        elif any(may_refuse_values(m.declaration, runtime.ics) or has_second_timers(m.declaration) for m in members):
-            ongoing.forgiving = (
-                True  # whether it may be refused is the matter of extended_policy_supported and timers_supported
-            )
+        elif any(_may_be_refused(runtime, m.declaration) for m in members):
+            ongoing.forgiving = True  # whether it may be is the matter of properties about its policies
         ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")
@@ -351,6 +350,12 @@ class RowSelection:
         for member in members:
             self._member_role(ongoing, member, condition)
             ongoing.unclear_if(member.raises(*_FAILING_END) or any(c.live is None for c in member.connections))
+
+
+def _may_be_refused(runtime: ObservedRuntime, declaration: s.Declaration) -> bool:
+    """May a container that has such a component not start?"""
+    may = may_refuse_values(declaration, runtime.ics) or has_second_timers(declaration)
+    return may or (has_second_active(declaration) and runtime.ics.permits("second-active-policy", "refuse"))
 
 
 def _is_attached(runtime: ObservedRuntime, member: Member) -> bool:

@@ -42,9 +42,11 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
             return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component)
         return ()
     without = ex.without_policy(runtime, ongoing.container)
-    if without and ongoing.judged:
-        reading = "default" if isinstance(ongoing.end, Return) else "refuse"
-        return _treated(check, runtime, ongoing, option, reading, without[0].lane)
+    if without and isinstance(ongoing.end, Return) and ongoing.judged:
+        return _treated(check, runtime, ongoing, option, "default", without[0].lane)
+    is_clear = ongoing.container.started is False and not runtime.interactions.improper()
+    if without and isinstance(ongoing.end, Raise) and is_clear:
+        return _treated(check, runtime, ongoing, option, "refuse", without[0].lane)
     return ()
 
 

@@ -62,7 +62,8 @@ class Pace:
         """One invocation for each instant."""
         if self.entered_at < self.first:
             return 0
-        return math.floor((self.entered_at - self.first) / self.period) + 1
+        latest = math.floor((self.entered_at - self.first) / self.period)
+        return latest + (2 if self.tick(latest + 1) <= self.entered_at else 1)  # the quotient is rounded
 
 
 @dataclass(frozen=True)

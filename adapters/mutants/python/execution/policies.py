@@ -23,7 +23,7 @@ from ucm_cts.adapters.mutants.python.registry import (
     breaks,
     container_of,
 )
-from ucm_cts.adapters.mutants.python.variants.execution import protects_what_components_call
+from ucm_cts.adapters.mutants.python.variants.direct_calls import protects_what_components_call
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.execution import POLICIES as EXECUTION_POLICIES
 from ucm_cts.adapters.reference.python.execution import Trigger

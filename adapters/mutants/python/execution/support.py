@@ -104,6 +104,17 @@ def truncates_results_of_the_second_active_port(_self: _Truncates, member: Membe
     return len(member.execution.managed) > 1 and port == list(member.implementation.provides)[-1]
 
 
+@breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "default"})
+class starts_nobody_without_policy(Base):
+    """The vendor declares a default policy for components without execution policy; their container is not started."""
+
+    def _check_startable(self) -> None:
+        for member in self.members.values():
+            if not member.execution.definition:
+                raise UcmError(f"{member.implementation.name!r} has no execution policy")
+        super()._check_startable()
+
+
 @breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "refuse"})
 class starts_what_it_says_it_refuses(Base):
     """The vendor declares that components without execution policy are refused; they are started."""

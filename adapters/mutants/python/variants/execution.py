@@ -10,13 +10,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TypeVar
 
-from ucm_cts.adapters.contract.data_types import Interface
-from ucm_cts.adapters.contract.programming_model import Implementation, PortElementObject, UcmError
+from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
 from ucm_cts.adapters.contract.scenario import (
     ACTIVE,
-    CLOCK,
-    COMPONENT_TRACE,
-    PORT_TRACE,
     PROTECTED_PASSIVE,
     SELF_EXECUTING,
     UNPROTECTED_PASSIVE,
@@ -26,7 +22,6 @@ from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import CONTAINER, CORE, POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.execution import Executor, Trigger
 from ucm_cts.adapters.reference.python.members import Failures, Member
-from ucm_cts.adapters.reference.python.policies import ProtectedElement
 
 _EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
 
@@ -324,87 +319,8 @@ def runs_one_component_at_a_time(self: Base, member: Member, trigger: Trigger) -
         Base._run(self, member, trigger)
 
 
-@variant_of(*POLICIES, "9.4.3.2", readings={"unknown-policy": "refused"})
-class refuses_unknown_policies_at_start(Base):
-    """A component with a policy that the framework does not know is added; its container does not start."""
-
-    def _check_policies(self, implementation: Implementation) -> None:
-        known = [p for p in implementation.policies if p.definition in _KNOWN]
-        super()._check_policies(dataclasses.replace(implementation, policies=known))
-
-    def _check_startable(self) -> None:
-        for member in self.members.values():
-            super()._check_policies(member.implementation)
-        super()._check_startable()
-
-
-class _ChecksPoliciesAtStart(Base):
-    def _check_policies(self, implementation: Implementation) -> None:
-        pass
-
-    def _check_startable(self) -> None:
-        for member in self.members.values():
-            super()._check_policies(member.implementation)
-        super()._check_startable()
-
-
-@variant_of(*POLICIES, "10.1.4")
-class refuses_policies_at_start(_ChecksPoliciesAtStart):
-    """A component is added whatever policies it has; if they cannot be applied, its container does not start."""
-
-
-@variant_of("10.5")
-class refuses_extended_policies_at_start(_ChecksPoliciesAtStart):
-    """The same with the policies of 10.5."""
-
-
-@variant_of("10.3", readings={"second-timer-policy": "refused"})
-class refuses_second_timer_policies_at_start(_ChecksPoliciesAtStart):
-    """The same with policies for timers: of a kind a component may have one."""
-
-
 @replaces("_execute_on_own_thread", clauses=POLICIES)
 def executes_active_components_by_period(self: Base, member: Member, work: Callable[[], T]) -> T:
     """A call of an active component is executed when the component's next period begins."""
     time.sleep(0.002)
     return Base._execute_on_own_thread(self, member, work)
-
-
-_KNOWN = {*_EXECUTION, CLOCK, COMPONENT_TRACE, PORT_TRACE}
-
-
-@variant_of(*POLICIES, readings={"raw-references": "unprotected"})
-class protects_what_components_call(Base):
-    """get_port_element gives out the bodies' own objects; components and connectors get protected references."""
-
-    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
-        element = super().get_port_element(comp_instance, port_name)
-        return element.element if isinstance(element, ProtectedElement) else element
-
-    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
-        protected = [
-            container._reference_to(provider, provided)
-            for container in (self.manager, *self.manager.sub_containers)
-            for provider in container.members.values()
-            for provided in provider.implementation.provides
-            if provider.body.get_portElement(provided) is target
-        ]
-        return super()._connect_to(member, port, next(filter(None, protected), target))
-
-    def _interfaces_of(self, target: PortElementObject) -> list[Interface | None]:
-        return []
-
-
-@variant_of("10.3", readings={"raw-references": "unprotected"})
-class protects_what_timers_call(protects_what_components_call):
-    """The same, beside timers."""
-
-
-@variant_of("10.4", readings={"raw-references": "unprotected"})
-class protects_what_extended_connectors_call(protects_what_components_call):
-    """The same, beside requests and shared data."""
-
-
-@variant_of("10.5", readings={"raw-references": "unprotected"})
-class paces_what_components_call(protects_what_components_call):
-    """The same; executions by the policies of 10.5 are paced where components call."""
