@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.execution.confirmation import PATIENT
 from ucm_cts.harness.execution.driver import Answer, Driver, Limits
-from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
+from ucm_cts.harness.purposes.scripts import Script, read_scripts, to_scenario
 from ucm_cts.harness.results.foreign import one_line
-from ucm_cts.harness.statement.claims import Offer
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.statement.applicability import ALWAYS_NEEDED, with_policies
+from ucm_cts.harness.statement.claims import Offer, claimed
 
 LIMITS = Limits(seconds=3, incident_seconds=10)
 """Of asking: a framework that crashes or hangs offers little."""
@@ -23,15 +25,22 @@ def offers_of(driver: Driver) -> Mapping[str, Offer]:
     """What the adapter behind ``driver`` offers, by capability and by option. Raises ``WrongUse`` and ``HostUnavailable``."""
     scripts = read_scripts(OFFERS)
     offers: dict[str, Offer] = {}
-    answers = driver.run((script.scenario, to_scenario(script)) for script in scripts)
+    _ask(driver, [script for script in scripts if script.scenario == ALWAYS_NEEDED], offers)
+    _ask(driver, [script for script in scripts if script.scenario != ALWAYS_NEEDED], offers)
+    return offers
+
+
+def _ask(driver: Driver, scripts: Sequence[Script], offers: dict[str, Offer]) -> None:
+    """Add to ``offers`` what the answers to ``scripts`` show; components have what the framework was found to need."""
+    statement = claimed(default_statement(), offers)
+    answers = driver.run((script.scenario, with_policies(to_scenario(script), statement)) for script in scripts)
     for script, first in zip(scripts, answers, strict=True):
         answer = _asked_again(driver, first) if _may_be_late(first) else first
         known = offers.get(script.scenario)
         if known is None or known.lacking:
             lacking = _lacking(answer, offers)
-            declared = dict(reading.split("=") for reading in script.under)
+            declared = dict(reading.split("=") for reading in script.under) if not lacking else {}
             offers[script.scenario] = known if known is not None and lacking else Offer(lacking, declared)
-    return offers
 
 
 def _may_be_late(answer: Answer) -> bool:

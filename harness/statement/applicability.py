@@ -142,7 +142,10 @@ def _is_test_operation(need: str, statement: Statement) -> bool:
 
 
 _MISSING_POLICY = "R-10.1.3-02"
-_REFUSED_WITHOUT = "missing-execution-policy=refuse"
+ALWAYS_NEEDED = "missing-execution-policy"
+"""The option that says whether components of all profiles need an execution policy."""
+
+_REFUSED_WITHOUT = f"{ALWAYS_NEEDED}=refuse"
 _ON_COMPONENTS = "protected-active-applicability=onComponent"
 _TRACED_PORTS = "port-trace-applicability=onPort|onBoth"
 _TRACE_PARAMETERS = "port-trace-parameters=both"

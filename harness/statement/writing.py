@@ -18,6 +18,7 @@ from ucm_cts.harness.catalogue.requirements import Interpretation, capabilities_
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.statement import HOOKS, IXIT, Statement, default_statement
+from ucm_cts.harness.statement.applicability import ALWAYS_NEEDED
 from ucm_cts.harness.statement.claims import Offers, claimed, lacking, to_decide
 from ucm_cts.harness.statement.files import Identity, stated_by
 
@@ -135,7 +136,7 @@ def to_short_toml(
     family = TOOLCHAIN_PROFILES if {*statement.profiles} <= {*TOOLCHAIN_PROFILES} else FRAMEWORK_PROFILES
     waiting = to_decide(statement, asked or {})
     options = {o: (entry, values) for entry in declarable() for o, values in entry.options.items()}
-    of_profiles = {option: known for option, known in options.items() if known[0].profile in parts}
+    of_profiles = {o: known for o, known in options.items() if known[0].profile in parts or o == ALWAYS_NEEDED}
     different = {o: v for o, (_, v) in of_profiles.items() if statement.readings[o] != default.readings[o]}
     offered = [o for o in different if o in HOOKS and statement.readings[o] == "hook"]
     undecided: dict[str, tuple[Interpretation, list[tuple[str, tuple[str, ...], str]]]] = {}

@@ -31,7 +31,7 @@ class Policies:
 
     ``executions``: definitions of the execution policies, each once.
     ``managed``: port elements that the thread of an active component serves.
-    ``elements``: policies that make the component require a port element (clock, trace), by that port element's name.
+    ``elements``: policies that make the component require a port element (clock, trace, timers), by that port element's name.
     ``traces``: the port traces.
     ``others``: policies that 10.1 does not have, those of 10.5 among them.
     """

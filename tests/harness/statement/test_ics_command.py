@@ -22,7 +22,7 @@ from ucm_cts.harness.execution.offers import offers_of
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.models.core_models import compare
 from ucm_cts.harness.results.statement import HOOKS, default_statement
-from ucm_cts.harness.statement.applicability import lines_for
+from ucm_cts.harness.statement.applicability import ALWAYS_NEEDED, lines_for
 from ucm_cts.harness.statement.claims import Offer, claimed
 from ucm_cts.harness.statement.files import check_subject, read_statement, stated_by
 from ucm_cts.harness.statement.writing import Wanted, to_short_toml, write_statement
@@ -135,11 +135,30 @@ def test_a_statement_claims_nothing_that_the_adapter_does_not_offer(here: Path, 
 def test_what_an_adapter_offers_is_found_out(lacks: str, of: set[str]) -> None:
     with Driver(locate(lacks, in_process=True), 1) as driver:
         offers = offers_of(driver)
-    assert offers.keys() == {*PARTS, *EXTENSIONS, *HOOKS}
+    assert offers.keys() == {*PARTS, *EXTENSIONS, *HOOKS, ALWAYS_NEEDED}
     assert {name for name, offer in offers.items() if offer.lacking} == of
     assert not [offer for offer in offers.values() if "not tried" in offer.lacking]
     declared = claimed(default_statement(), offers).readings["protected-active-applicability"]
     assert declared == ("onComponent" if lacks.endswith("AsAWhole") else "onPort")
+
+
+@pytest.mark.parametrize("profile", ["container", "extensions"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "refuses_components_without_policy",
+        "refuses_to_start_components_without_policy",
+        "gives_a_policy_to_those_without",
+    ],
+)
+def test_a_framework_that_needs_execution_policies_gets_a_statement_that_says_so(
+    name: str, profile: str, here: Path
+) -> None:
+    assert ucm_cts("ics", f"ucm_cts.adapters.mutants.python:{name}", "--profile", profile).status == 0
+    stated = tomllib.loads((here / "ucm-cts-ics.toml").read_text())
+    needs = stated.get("readings", {}).get(ALWAYS_NEEDED) == "refuse"
+    assert needs == name.startswith("refuses")
+    assert stated.get("capabilities", {}).get("request-response", False) == (profile == "extensions")
 
 
 def test_an_adapter_that_crashes_gets_a_statement_that_says_so(here: Path) -> None:

@@ -230,7 +230,7 @@ struct Policies {
     /// The port elements that the thread of an active component serves.
     std::vector<std::string> managed;
 
-    /// The definitions of policies that make the component require a port element (clock, trace), by that port element's name.
+    /// The definitions of policies that make the component require a port element (clock, trace, timers), by that port element's name.
     std::map<std::string, std::string> elements;
 
     std::vector<PortTrace> traces;
