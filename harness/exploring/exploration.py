@@ -198,9 +198,14 @@ class Exploration:
         """A scenario that needs only what the vendor claims."""
         for _ in range(TRIES):
             drawn = fitting([("", CoreWriter(self._random.choice).scenario())], self._statement)
-            if drawn:
+            if drawn and not self._may_wait_for_ever(drawn[0][1]):
                 return drawn[0][1]
         return self._draw(())
+
+    def _may_wait_for_ever(self, scenario: Scenario) -> bool:
+        """May a call wait for a link to be mended (``service-failure``), which no drawn scenario takes into account?"""
+        waits = self._statement.readings["service-failure"] == "wait"
+        return waits and any(isinstance(step, s.Break) for step in scenario.steps)
 
     def _draw_extension(self) -> Scenario:
         """A scenario of a part of profile extensions that the vendor claims."""

@@ -34,6 +34,9 @@ _BY_ITSELF = {"passive": "R-10.1.3.2-14", "unprotected": "R-10.1.3.2-19", "activ
 _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
+_BEYOND = 300_000_000
+"""A run that is held for so many nanoseconds longer than the usual interval has been held long enough, too."""
+
 
 @property_at("began", *policies.EXCLUSIONS)
 def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
@@ -127,7 +130,8 @@ def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execut
         return ()
     begun = [run.enter.t for run in (*runs, execution)]
     usual = statistics.median(later - earlier for earlier, later in itertools.pairwise(begun))
-    if any(run.left - run.enter.t >= _INTERVALS * usual for run in runs):
+    enough = min(_INTERVALS * usual, usual + _BEYOND)
+    if any(run.left - run.enter.t >= enough for run in runs):
         declaration = runtime.scenario.components[execution.enter.component]
         return check.kept(policies.exclusion(declaration, runtime.ics, "run", "run"))
     return ()

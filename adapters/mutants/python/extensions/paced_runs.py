@@ -303,3 +303,18 @@ class lets_runs_meet(Base):
                 self._execution_api(member).run()
 
         threading.Thread(target=run, daemon=True).start()
+
+
+@breaks("R-10.5.2-21", clauses=PACED, also=("R-10.5.2-02", "R-10.5.2-04"))
+class runs_twice_after_a_stop_during_a_run(Base):
+    """A component that is stopped while its run is inside is executed twice a period from the next start on."""
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        super()._run(member, trigger)
+        if trigger.ended.is_set():
+            self.__dict__.setdefault("twice", set()).add(member.id)
+
+    def _run_paced(self, member: Member, trigger: Trigger) -> None:
+        if member.id in self.__dict__.get("twice", ()):
+            threading.Thread(target=super()._run_paced, args=(member, trigger), daemon=True).start()
+        super()._run_paced(member, trigger)

@@ -324,3 +324,10 @@ def executes_active_components_by_period(self: Base, member: Member, work: Calla
     """A call of an active component is executed when the component's next period begins."""
     time.sleep(0.002)
     return Base._execute_on_own_thread(self, member, work)
+
+
+@variant_of(*POLICIES)
+class runs_five_times_a_second(Base):
+    """So often is run of a self-executing component called."""
+
+    period = 0.19
