@@ -16,6 +16,9 @@ _PROTECTIONS: dict[str, Protection] = {
     s.PROTECTED_PASSIVE: "passive",
     s.UNPROTECTED_PASSIVE: "unprotected",
 }
+OF_THE_CORE = frozenset(_PROTECTIONS)
+"""The execution policies of 10.1.3."""
+
 _PROTECTIONS |= {extended: _PROTECTIONS[base] for extended, base in s.EXTENDED.items()}
 
 _KNOWN = {*_PROTECTIONS, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE, s.INDEX_TIMERS, s.OBJECT_TIMERS}

@@ -122,7 +122,9 @@ def _pair_callbacks(found: Requests) -> None:
 
 
 def _pair_otherwise(found: Requests, callback: Callback, given: Sequence[Answer]) -> None:
-    """A synchronous server does not learn identifiers: which of several equal requests it answered shows when a response tells one."""
+    """A server learns no identifier, or another one than the client: which of several equal requests it answered shows when a response
+    tells one.
+    """
     own = [
         a for a in found.asked if not a.waits and a.client.is_of_port(callback.client) and a.given == callback.number
     ]
@@ -130,7 +132,7 @@ def _pair_otherwise(found: Requests, callback: Callback, given: Sequence[Answer]
         return
     for answer, other in itertools.product(given, own):
         entry, asked = answer.to, answer.asked
-        if entry is None or asked is None or entry.number is not None or answer.callbacks:
+        if entry is None or asked is None or entry.number == asked.given or answer.callbacks:
             continue
         was_asked = other.value == asked.value and other.call.request.n < entry.delivery.enter.n
         if was_asked and not any(one.callbacks for one in other.answers):

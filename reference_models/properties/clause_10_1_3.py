@@ -11,7 +11,7 @@ from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
-from ucm_cts.reference_models.model.runtime import Member, has_meaningless_values, lane, raises
+from ucm_cts.reference_models.model.runtime import Container, Member, has_meaningless_values, lane, raises
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _RUN_IS_CALLED = "R-10.1.3.2-01"
@@ -44,10 +44,17 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
     without = ex.without_policy(runtime, ongoing.container)
     if without and isinstance(ongoing.end, Return) and ongoing.judged:
         return _treated(check, runtime, ongoing, option, "default", without[0].lane)
-    is_clear = ongoing.container.started is False and not runtime.interactions.improper()
-    if without and isinstance(ongoing.end, Raise) and is_clear:
+    if without and isinstance(ongoing.end, Raise) and _is_all_that_is_wrong(runtime, ongoing.container):
         return _treated(check, runtime, ongoing, option, "refuse", without[0].lane)
     return ()
+
+
+def _is_all_that_is_wrong(runtime: ObservedRuntime, container: Container) -> bool:
+    """May a start of ``container`` be refused for nothing but that members have no policy? All others have one of 10.1.3, and no more."""
+    held = [p for m in container.live_members() for p in m.declaration.policies]
+    several = any(len(m.declaration.policies) > 1 for m in container.live_members())
+    plain = all(p.definition in policies.OF_THE_CORE for p in held)
+    return container.started is False and plain and not several and not runtime.interactions.improper()
 
 
 @property_at("ended", "R-9.4.3.2-06", at=("add_component", "start"), feature="policies")

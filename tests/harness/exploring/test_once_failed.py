@@ -15,6 +15,7 @@ from ucm_cts.adapters.mutants.python.subjects import (
     CONTAINER,
     CORE,
     PACED,
+    POLICIES,
     REQUESTS,
     SHARED,
     TIMED,
@@ -30,7 +31,7 @@ from ucm_cts.reference_models.monitor import Monitor
 
 ONCE_FAILED = msgspec.yaml.decode((Path(__file__).parent / "once_failed.yaml").read_bytes())
 FIELDS = ("interfaces", "components", "steps")
-VARIANTS = variants_of((*CONTAINER, *CORE, *TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
+VARIANTS = variants_of((*CONTAINER, *CORE, *POLICIES, *TIMED, *TRIGGERED, *REQUESTS, *SHARED, *PACED))
 
 
 @pytest.mark.parametrize("case", ONCE_FAILED, ids=lambda case: case["name"])

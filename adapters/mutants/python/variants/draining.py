@@ -1,15 +1,19 @@
-"""A conformant variant whose stop waits for calls in progress (stop-drain = wait)."""
+"""Conformant variants in which calls meet a stop: it waits for those in progress (stop-drain = wait), or they are refused."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.programming_model import PortElementObject
-from ucm_cts.adapters.mutants.python.registry import CONTAINER, Base, Proxy, variant_of
+from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
+from ucm_cts.adapters.mutants.python.registry import CONTAINER, POLICIES, Base, Proxy, variant_of
 from ucm_cts.adapters.reference.python.members import Failures, Member
+
+T = TypeVar("T")
 
 
 class _Inside:
@@ -77,3 +81,21 @@ class waits_for_calls_at_stop(Base):
         super()._shut_down_started(failures)
         for member in stopped:
             _of(member).wait_until_left()
+
+
+@variant_of(*POLICIES)
+class serves_no_call_once_stop_is_called(Base):
+    """Calls that come while a stop is in progress are refused, also before on_shutdown."""
+
+    def stop(self) -> None:
+        self.__dict__["is_stopping"] = True
+        time.sleep(0.05)
+        try:
+            super().stop()
+        finally:
+            self.__dict__["is_stopping"] = False
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if self.__dict__.get("is_stopping"):
+            raise UcmError("the container is being stopped")
+        return super()._execute(member, port, work)
