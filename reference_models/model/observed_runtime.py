@@ -20,7 +20,8 @@ class ObservedRuntime(Runtime):
     """A runtime with what bodies execute and how they interact, recorded if the scenario is ``interacting``: if port elements
     have interfaces or components policies. ``service_calls`` and ``undisturbed`` are what the functions of services
     with these names have found, ``requests``, ``shared_data``, ``paced_phases``, ``timer_phases`` and ``object_timer_phases`` what the functions
-    ``all_requests``, ``all_shared_data``, ``paced_phases``, ``timer_phases`` and ``object_timer_phases`` have, ``is_over`` says that no event follows.
+    ``all_requests``, ``all_shared_data``, ``paced_phases``, ``timer_phases`` and ``object_timer_phases`` have, ``is_over`` says that no event follows,
+    ``is_ending`` that a step that stops or removes components is in progress.
     """
 
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
@@ -38,7 +39,7 @@ class ObservedRuntime(Runtime):
         self.timer_phases: list[TimerPhase] | None = None
         self.object_timer_phases: list[TimerPhase] | None = None
         self.undisturbed: list[tuple[ServiceCall, Trouble]] | None = None
-        self.is_over = False
+        self.is_over, self.is_ending = False, False
 
     def dissolve(self) -> None:
         """It has been read, and nobody asks about it any more: undo what refers to each other. Then its memory is free at once, and not when

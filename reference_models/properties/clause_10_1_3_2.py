@@ -187,7 +187,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
         for requirement in guaranteed:
             yield check.kept(requirement)
         return
-    if not own and runtime.interactions.ends_phases(call.n, end.n):
+    if not own and isinstance(end, Raise) and runtime.is_ending:
         return  # a component that is being stopped serves no call
     entered = ", ".join(f"{e.port} with {e.value}" for e, _ in own) or "nothing"
     came_back = end.value if isinstance(end, Return) else end.error

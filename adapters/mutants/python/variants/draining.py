@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
-from ucm_cts.adapters.mutants.python.registry import CONTAINER, POLICIES, Base, Proxy, variant_of
+from ucm_cts.adapters.mutants.python.registry import CONTAINER, POLICIES, Base, GivesOutProxies, Proxy, variant_of
 from ucm_cts.adapters.reference.python.members import Failures, Member
-
-T = TypeVar("T")
 
 
 class _Inside:
@@ -83,9 +80,18 @@ class waits_for_calls_at_stop(Base):
             _of(member).wait_until_left()
 
 
-@variant_of(*POLICIES)
-class serves_no_call_once_stop_is_called(Base):
-    """Calls that come while a stop is in progress are refused, also before on_shutdown."""
+class _Closed(Proxy):
+    def exchange(self, value: int) -> int:
+        if self.member.container.__dict__.get("is_stopping"):
+            raise UcmError("the container is being stopped")
+        return super().exchange(value)
+
+
+@variant_of(*CONTAINER, *POLICIES)
+class serves_no_call_once_stop_is_called(GivesOutProxies):
+    """Calls of the test that come while a stop is in progress are refused, also before on_shutdown."""
+
+    proxy = _Closed
 
     def stop(self) -> None:
         self.__dict__["is_stopping"] = True
@@ -94,8 +100,3 @@ class serves_no_call_once_stop_is_called(Base):
             super().stop()
         finally:
             self.__dict__["is_stopping"] = False
-
-    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        if self.__dict__.get("is_stopping"):
-            raise UcmError("the container is being stopped")
-        return super()._execute(member, port, work)
