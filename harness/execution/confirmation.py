@@ -38,7 +38,12 @@ FURTHER = (OTHERWISE, PATIENT, Circumstances(), LATER)
 """The further runs of a failure that does not depend on time; the first run that shows it again ends them."""
 
 FURTHER_OF_LATE = 3
-"""So many runs, after the one with more patience, must not show lateness again before it counts as the machine's."""
+"""So many runs, after the one with more patience, must not show lateness again before it counts as the machine's. On a busy machine so
+many must show it again, each of them, before it counts as the product's.
+"""
+
+MOST_OF_LATE = 5
+"""So many runs are made at most until enough of them did not show lateness."""
 
 TROUBLE = 100
 """Milliseconds. For so long at least a machine stood still, or threads waited for a processor, where lateness is the machine's."""
@@ -167,18 +172,50 @@ class Confirmation:
             seldom = "unstable: seen now and then, and never again when the same scenario was run once more"
             return _gap_reason(gap) or seldom, None
         second, second_gap = self._again(answer, PATIENT)
+        doubtful: set[Cause] = set()
         if not second_gap:
-            self._confirmed |= causes & self._causes_in(second)
+            doubtful = self._maybe_of_the_machine(second, causes)
+            self._confirmed |= (causes & self._causes_in(second)) - doubtful
+        steady = self._show_each_time(answer, doubtful)
         self._attempts.update(causes - self._confirmed)
         if not second.trace:
             return _gap_reason(gap) or "unstable: seen once, and the same scenario could not be run again", None
+        if steady is not None:
+            return "unstable: late on a busy machine, and not each time", steady
         again = f"not when the same scenario was run again with {PATIENT.patience} times the patience"
         return _gap_reason(max(gap, second_gap)) or f"unstable: seen once, and {again}", second
+
+    def _maybe_of_the_machine(self, answer: Answer, causes: set[Cause]) -> set[Cause]:
+        """Those of ``causes`` that ``answer`` shows, and only by lateness for which a busy machine had time enough."""
+        found: dict[Cause, list[Finding]] = {}
+        for finding in self._findings(answer):
+            if cause_of(finding) in causes:
+                found.setdefault(cause_of(finding), []).append(finding)
+        late = {cause: findings for cause, findings in found.items() if all(map(is_late, findings))}
+        if not late or self._driver.isolation == "remote":  # another machine
+            return set()
+        contended = self._gaps.contended(answer.trace)
+        return {cause for cause, findings in late.items() if contended >= _needed(findings)}
+
+    def _show_each_time(self, answer: Answer, causes: set[Cause]) -> Answer | None:
+        """Confirms those of ``causes`` that several further runs of ``answer``'s scenario all show. Returns a run that shows not all, if any."""
+        left, steady = set(causes), None
+        for _ in range(FURTHER_OF_LATE if causes else 0):
+            again, _ = self._again(answer, Circumstances())
+            shown = self._causes_in(again)
+            if again.trace and not left <= shown:
+                steady = again
+            left &= shown
+            if not left:
+                break
+        self._confirmed |= left
+        return steady
 
     def _is_of_the_machine(self, answer: Answer, gap: int, findings: Sequence[Finding], steady: Answer) -> bool:
         """Whether ``findings`` of ``answer`` tell of nothing but lateness for which a busy machine had time enough.
 
-        ``steady``, the run with more patience, keeps their requirements, and several further runs do not show them either.
+        ``steady``, the run with more patience, keeps their requirements, and several further runs do not show them either. One or two
+        more may show them again, if the machine was busy then, too.
         """
         causes = {cause_of(finding) for finding in findings}
         if not all(map(is_late, findings)) or any(self._attempts[cause] > MOST_ATTEMPTS for cause in causes):
@@ -189,14 +226,19 @@ class Confirmation:
         kept = {finding.requirement for finding in findings} <= verdicts.exercises.keys()
         if not kept or causes & {cause_of(finding) for finding in verdicts.findings}:
             return False
-        needed = max(TROUBLE, *(finding.late_by // _MILLISECOND for finding in findings))
+        needed = _needed(findings)
         if gap < needed and self._gaps.contended(answer.trace) < needed:
             return False
-        for _ in range(FURTHER_OF_LATE):
+        steady_ones = 0
+        for _ in range(MOST_OF_LATE):
             again, _ = self._again(answer, Circumstances())
-            if not again.trace or causes & self._causes_in(again):
+            shown = causes & self._causes_in(again)
+            if not again.trace or shown != self._maybe_of_the_machine(again, shown):
                 return False
-        return True
+            steady_ones += not shown
+            if steady_ones == FURTHER_OF_LATE:
+                return True
+        return False
 
     def _again(self, answer: Answer, circumstances: Circumstances) -> tuple[Answer, int]:
         """A further run of ``answer``'s scenario, and the milliseconds for which the machine stood still meanwhile: if possible none."""
@@ -212,6 +254,11 @@ class Confirmation:
 
     def _findings(self, answer: Answer) -> list[Finding]:
         return self._monitor.judge(answer.disguised, answer.trace).findings if answer.trace else []
+
+
+def _needed(late: Sequence[Finding]) -> int:
+    """For how many milliseconds a machine must have been short of processors to explain the findings ``late``."""
+    return max(TROUBLE, *(finding.late_by // _MILLISECOND for finding in late))
 
 
 def _gap_reason(gap: int) -> str:

@@ -15,6 +15,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import click
 import msgspec
@@ -92,12 +93,18 @@ def one_run(adapter: str, profile: str, variant: str, number: int) -> SeriesRun:
         except OSError:
             raise click.ClickException(f"run {number} left no report: {done.stderr.strip()}") from None
     verdicts = {result["id"]: result["verdict"] for result in report["requirements"]}
-    reasons = {result["id"]: result["reason"] for result in report["requirements"]}
+    reasons = {result["id"]: _reason(result) for result in report["requirements"]}
     incidents = len(report.get("incidents", ()))
     label = value or f"{number}"
     return SeriesRun(
         label, report["verdict"], verdicts, reasons, incidents, report["seconds"], report.get("measures", {})
     )
+
+
+def _reason(result: Mapping[str, Any]) -> str:
+    """Why the verdict of a requirement is as it is, with the first finding about it, if there is one."""
+    shown = [f"expected {one['expected']}; observed {one['observed']}" for one in result["findings"][:1]]
+    return ": ".join(part for part in (result["reason"], *shown) if part)
 
 
 @contextlib.contextmanager

@@ -236,8 +236,8 @@ def test_lateness_on_a_busy_machine_that_is_not_shown_again_does_not_count(gap: 
         ([EARLY], [], 5000),
         ([MISSING], [], 5000),
         ([LATE, EARLY], [], 5000),
-        ([LATE], [[LATE]], 5000),
-        ([LATE], [[], [], [LATE]], 5000),
+        ([LATE], [[msgspec.structs.replace(LATE, late_by=0)]], 5000),
+        ([LATE], [[LATE], [], [LATE], [], [LATE]], 5000),
     ],
 )
 def test_other_findings_on_a_busy_machine_are_unstable(
@@ -250,6 +250,14 @@ def test_other_findings_on_a_busy_machine_are_unstable(
     assert [one.finding for one in unconfirmed] == findings
     assert not run.measures
     assert len(run.patience) == 1 + len(further)
+
+
+@pytest.mark.parametrize("further", [[[LATE]], [[], [], [LATE]], [[LATE], [], [LATE]]])
+def test_lateness_may_be_shown_again_while_the_machine_is_busy(further: list[list[Finding]]) -> None:
+    run = MadeUp([], waited=5000)
+    run.further = further
+    assert run.confirmation().separate(ANSWER, [LATE]) == ([], [])
+    assert len(run.patience) == 1 + len([one for one in further if one]) + module.FURTHER_OF_LATE
 
 
 def test_lateness_on_a_busy_machine_is_not_excused_often() -> None:
@@ -269,8 +277,27 @@ def test_lateness_is_not_excused_by_another_machine_or_by_a_run_without_it() -> 
         assert [one.finding for one in run.confirmation().separate(ANSWER, [LATE])[1]] == [LATE]
 
 
-def test_lateness_that_is_shown_again_on_a_busy_machine_counts() -> None:
-    assert MadeUp([LATE], waited=5000).confirmation().separate(ANSWER, [LATE]) == ([LATE], [])
+@pytest.mark.parametrize(("waited", "runs"), [(0, 1), (5000, 1 + module.FURTHER_OF_LATE)])
+def test_lateness_that_is_shown_each_time_counts(waited: int, runs: int) -> None:
+    run = MadeUp([LATE], waited=waited)
+    assert run.confirmation().separate(ANSWER, [LATE]) == ([LATE], [])
+    assert len(run.patience) == runs
+
+
+@pytest.mark.parametrize("busy", [0, 1, 2])
+def test_lateness_that_is_shown_twice_on_a_busy_machine_and_not_each_time_does_not_count(busy: int) -> None:
+    run = MadeUp([LATE], waited=5000)
+    run.further = [*[[LATE]] * busy, *[[]] * 9]
+    assert run.confirmation().separate(ANSWER, [LATE]) == ([], [])
+    run = MadeUp([LATE], waited=5000)
+    run.further = [*[[LATE]] * busy, [], *[[LATE]] * 9]
+    (one,) = run.confirmation().separate(ANSWER, [LATE])[1]
+    assert one.reason == "unstable: late on a busy machine, and not each time"
+
+
+def test_what_comes_too_early_or_not_at_all_counts_on_a_busy_machine() -> None:
+    for finding in (EARLY, MISSING):
+        assert MadeUp([finding], waited=5000).confirmation().separate(ANSWER, [finding]) == ([finding], [])
 
 
 def test_shorter_scenarios_do_not_count_if_the_machine_stood_still() -> None:
