@@ -150,7 +150,7 @@ class _TraceReader:
         self.interactions.operate(step, event)
         if is_operation:
             self.ongoing = self.monitor.row_selection.open(self.runtime, event.step, step, event.n)  # type: ignore[arg-type]
-            self.runtime.is_ending = step.undoes == "phase"
+            self.runtime.ending = self.ongoing if step.undoes == "phase" else None
         elif isinstance(step, s.Invoke):
             thread = self.threads.get(event.thread) or self.thread(event.thread)
             self.begin(thread, BusinessCall(step.value, event.n, None, step))
@@ -174,7 +174,7 @@ class _TraceReader:
             runtime.starting.clear()
             runtime.starting_up.clear()
             runtime.changed()
-            self.ongoing, runtime.is_ending = None, False
+            self.ongoing = runtime.ending = None
             return
         step = self.steps[event.step]
         begin = self.connecting.pop(event.step, None) if self.connecting else None

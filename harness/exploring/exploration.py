@@ -203,7 +203,7 @@ class Exploration:
         return self._draw(())
 
     def _may_wait_for_ever(self, scenario: Scenario) -> bool:
-        """May a call wait for a link to be mended (``service-failure``), which no drawn scenario takes into account?"""
+        """Does the vendor declare that a call waits until its link is mended (``service-failure``)? No drawn scenario sees to that."""
         waits = self._statement.readings["service-failure"] == "wait"
         return waits and any(isinstance(step, s.Break) for step in scenario.steps)
 

@@ -6,7 +6,7 @@ account of it), and if nothing that may end it was called before patience had ru
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract import scenario as s
@@ -69,6 +69,13 @@ class _Targets:
             self.connections[step.bind] = self.bodies[step.id], step.port, self.references[step.to]
         elif isinstance(step, s.Disconnect) and step.connection in self.connections:
             self.connections[step.connection] = (*self.connections[step.connection][:2], None)
+
+    def may_lead_to(self, call: s.Invoke | t.Request, body: tuple[str, int]) -> bool:
+        """Does ``call`` come to ``body``, as far as is known?"""
+        if isinstance(call, s.Invoke):
+            return self.references.get(call.ref, body) == body
+        goals = {to for client, port, to in self.connections.values() if (client, port) == (call.body, call.port)}
+        return not goals or body in goals
 
     def are_there(self, call: s.Invoke | t.Request) -> bool:
         """Does ``call`` lead to nothing that is removed, and not through a port that was connected and no longer is?"""
@@ -166,9 +173,15 @@ class _Reading:
         """Was the call impossible when it was made, and is it still?"""
         return not call.possible and not self._is_possible(call.call)
 
-    def waits_for_mending(self, call: _OpenCall) -> bool:
-        """Is it a call of a body that may wait until a broken link is mended?"""
-        return bool(self.broken) and isinstance(call.call, t.Request) and self.is_left_open(call)
+    def held_up(self, waiting: Sequence[_OpenCall]) -> list[_OpenCall]:
+        """The calls that may wait until a broken link is mended, and those that wait for the bodies that made them."""
+        found = [c for c in waiting if self.broken and isinstance(c.call, t.Request) and self.is_left_open(c)]
+        for call in found:  # grows meanwhile
+            body = call.event.body if isinstance(call.event, t.Request) else None
+            found += [
+                c for c in waiting if c not in found and body is not None and self.targets.may_lead_to(c.call, body)
+            ]
+        return found
 
     def tops(self) -> Iterator[t.Event]:
         """What each thread is doing last."""
@@ -199,10 +212,9 @@ def lost_call(execution: Execution) -> t.Call | t.Request | None:
     if incident is None or reading.has_bodies_inside():
         return None
     waiting = [reading.calls[event.n] for event in reading.tops() if event.n in reading.calls]
-    if any(reading.waits_for_mending(call) for call in waiting):
-        return None  # the others may wait for the component that made it
     hangs = incident.kind == "hang"
-    lost = [call.event for call in waiting if call.lost or (call.possible and not hangs)]
+    held = reading.held_up(waiting)
+    lost = [c.event for c in waiting if c not in held and (c.lost or (c.possible and not hangs))]
     return max(lost, key=lambda event: event.n, default=None)
 
 

@@ -163,7 +163,7 @@ def to_short_toml(
 
 def _remarks(statement: Statement, missing: Mapping[str, str], family: Collection[str]) -> list[str]:
     """What the adapter does not offer, and what that means for the claims."""
-    names = {capability.id for capability in load_capabilities().capabilities}
+    names = {capability.id for capability in load_capabilities().capabilities if capability.profile == "core"}
     parts = _by_reason({name: why for name, why in missing.items() if name in names})
     hooks = _by_reason({name: why for name, why in missing.items() if name in HOOKS})
     remarks = []

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.scenario import MANAGER, RemoveComponent, Scenario
 from ucm_cts.reference_models.model.execution_policies import knows_policies
 from ucm_cts.reference_models.model.executions import Executions
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.interactions import Interactions
 from ucm_cts.reference_models.model.nothing_recorded import NoExecutions, NoInteractions
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.paced_events import PacedPhase
 from ucm_cts.reference_models.model.request_events import Requests
-from ucm_cts.reference_models.model.runtime import Runtime
+from ucm_cts.reference_models.model.runtime import Member, Runtime
 from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
 from ucm_cts.reference_models.model.shared_data_events import SharedData
 from ucm_cts.reference_models.model.timer_events import TimerPhase
@@ -21,7 +22,7 @@ class ObservedRuntime(Runtime):
     have interfaces or components policies. ``service_calls`` and ``undisturbed`` are what the functions of services
     with these names have found, ``requests``, ``shared_data``, ``paced_phases``, ``timer_phases`` and ``object_timer_phases`` what the functions
     ``all_requests``, ``all_shared_data``, ``paced_phases``, ``timer_phases`` and ``object_timer_phases`` have, ``is_over`` says that no event follows,
-    ``is_ending`` that a step that stops or removes components is in progress.
+    ``ending`` is the operation in progress if it stops or removes components.
     """
 
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
@@ -39,7 +40,17 @@ class ObservedRuntime(Runtime):
         self.timer_phases: list[TimerPhase] | None = None
         self.object_timer_phases: list[TimerPhase] | None = None
         self.undisturbed: list[tuple[ServiceCall, Trouble]] | None = None
-        self.is_over, self.is_ending = False, False
+        self.is_over = False
+        self.ending: OperationInProgress | None = None
+
+    def is_being_ended(self, member: Member) -> bool:
+        """Is an operation in progress that may stop or remove the component?"""
+        ongoing = self.ending
+        if ongoing is None:
+            return False
+        if isinstance(ongoing.step, RemoveComponent):
+            return ongoing.subject is member
+        return ongoing.container.name == MANAGER or ongoing.container is member.container
 
     def dissolve(self) -> None:
         """It has been read, and nobody asks about it any more: undo what refers to each other. Then its memory is free at once, and not when

@@ -244,7 +244,7 @@ class RowSelection:
         elif without_policy(runtime, container):
             ongoing.forgiving = True  # whether it may be refused is execution_policy_given's matter
         elif any(_may_be_refused(runtime, m.declaration) for m in members):
-            ongoing.forgiving = True  # whether it may be is the matter of properties about its policies
+            ongoing.forgiving = True  # properties about policies judge whether it may be
         ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")

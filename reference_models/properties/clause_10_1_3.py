@@ -8,6 +8,7 @@ from ucm_cts.adapters.contract.trace import Raise, Return, Stressed, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, takes
 from ucm_cts.reference_models.model import execution_policies as policies
 from ucm_cts.reference_models.model import executions as ex
+from ucm_cts.reference_models.model.links import is_misfit
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
@@ -50,11 +51,18 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
 
 
 def _is_all_that_is_wrong(runtime: ObservedRuntime, container: Container) -> bool:
-    """May a start of ``container`` be refused for nothing but that members have no policy? All others have one of 10.1.3, and no more."""
-    held = [p for m in container.live_members() for p in m.declaration.policies]
-    several = any(len(m.declaration.policies) > 1 for m in container.live_members())
-    plain = all(p.definition in policies.OF_THE_CORE for p in held)
-    return container.started is False and plain and not several and not runtime.interactions.improper()
+    """May a start of ``container`` be refused for nothing but that members have no policy? Nobody is elsewhere, all others have one policy of
+    10.1.3, and connections have equal ends.
+    """
+    members = container.live_members()
+    if container.started is not False or len(members) < len(
+        [m for c in runtime.containers.values() for m in c.live_members()]
+    ):
+        return False
+    is_plain = all(m.declaration.policies[1:] == () and not m.suspended for m in members)
+    is_plain = is_plain and all(p.definition in policies.OF_THE_CORE for m in members for p in m.declaration.policies)
+    differs = any(is_misfit(c) for m in members for c in m.connections if c.live is not False)
+    return is_plain and not differs and not runtime.interactions.improper()
 
 
 @property_at("ended", "R-9.4.3.2-06", at=("add_component", "start"), feature="policies")

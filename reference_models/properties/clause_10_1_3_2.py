@@ -35,7 +35,7 @@ _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
 _BEYOND = 300_000_000
-"""A run that is held for so many nanoseconds longer than the usual interval has been held long enough, too."""
+"""A run that is held for this many nanoseconds beyond the usual interval is held long enough, too."""
 
 
 @property_at("began", *policies.EXCLUSIONS)
@@ -187,7 +187,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
         for requirement in guaranteed:
             yield check.kept(requirement)
         return
-    if not own and isinstance(end, Raise) and runtime.is_ending:
+    if not own and isinstance(end, Raise) and runtime.is_being_ended(member):
         return  # a component that is being stopped serves no call
     entered = ", ".join(f"{e.port} with {e.value}" for e, _ in own) or "nothing"
     came_back = end.value if isinstance(end, Return) else end.error

@@ -40,7 +40,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
     own = call.entries
     if len(own) != 1 or own[0][0].instance != instance or own[0][0].component != component:
         own = [(e, x) for e, x in own if e.instance == instance and e.component == component]
-    if not own and isinstance(end, Raise) and runtime.is_ending:
+    if not own and isinstance(end, Raise) and runtime.is_being_ended(member):
         return  # a component that is being stopped serves no call
     if not own or isinstance(end, Raise):
         expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"

@@ -97,7 +97,8 @@ def _may_be_refused_anyway(ongoing: OperationInProgress, member: Member, row: Ro
     """Does another choice speak against it, too? Ports are connected already, or what is removed is itself connected."""
     if isinstance(ongoing.step, s.Connect):
         return row.condition != "already connected" and bool(member.live_connections(ongoing.step.port))
-    return ongoing.operation == "remove_component" and row.condition != "connected" and bool(member.live_connections())
+    is_of_connections = row.condition in ("connected", "attached")
+    return ongoing.operation == "remove_component" and not is_of_connections and bool(member.live_connections())
 
 
 def _options(fit: Fit) -> list[str]:

@@ -18,13 +18,18 @@ UNDER = "raw-references=unprotected"
 
 def through_components(purpose: TestPurpose) -> TestPurpose:
     """The same purpose with a component for each value that the test passes to a reference: told so, it calls the reference with that value."""
-    cases = tuple((f"{name}, called by components", _relayed(scenario)) for name, scenario in purpose.scenarios)
+    called = [
+        (n, scenario) for n, scenario in purpose.scenarios if any(isinstance(o, s.Invoke) for o in scenario.steps)
+    ]
+    cases = tuple((f"{name}, called by components", _relayed(scenario)) for name, scenario in called)
     name = f"{purpose.id}, called by components"
     return dataclasses.replace(purpose, id=name, scenarios=cases, under=(*purpose.under, UNDER))
 
 
 def _relayed(scenario: Scenario) -> Scenario:
-    """The components and their connections are made before the first start, when the references are there."""
+    """The components and their connections are made before the first start, in the manager. So ``scenario`` has all components whose references
+    are called then, and needs references for nothing else.
+    """
     given = {step.bind or "": step for step in scenario.steps if isinstance(step, s.GetPortElement)}
     values = dict.fromkeys((step.ref, step.value) for step in scenario.steps if isinstance(step, s.Invoke))
     steps: list[Step] = []
@@ -32,8 +37,9 @@ def _relayed(scenario: Scenario) -> Scenario:
     for step in scenario.steps:
         if isinstance(step, s.Start) and not is_made:
             is_made = True
+            steps += (_goal(given[ref]) for ref in dict.fromkeys(ref for ref, _ in values))
             for ref, value in values:
-                steps += (_goal(given[ref]), *_made(ref, value))
+                steps += _made(ref, value)
         if isinstance(step, s.Invoke):
             steps.append(msgspec.structs.replace(step, ref=_told(step.ref, step.value)))
         elif not isinstance(step, s.GetPortElement):

@@ -128,7 +128,7 @@ def test_a_body_that_is_inside_keeps_its_caller_waiting() -> None:
 
 
 def test_a_call_waits_for_a_component_that_waits_for_a_broken_link() -> None:
-    """The client, which is executed by a thread of its own, calls through what is broken; so does nobody in the other story."""
+    """The client, which is executed by a thread of its own, calls through what is broken. In the other story nobody does."""
     plain = (*LINKED[s.SERVICE_CONNECTOR][:-1], s.Break("line"), PLAIN[-1])
     for entered, blamed in ((True, ""), (False, "R-11.2.3-03")):
         story = Story(plain=plain)
@@ -136,6 +136,16 @@ def test_a_call_waits_for_a_component_that_waits_for_a_broken_link() -> None:
             story.put(t.Enter, thread=2, component="client", instance=1, hook="exchange", port="go", value=7)
             story.put(t.Request, thread=2, component="client", instance=1, port="out", value=7)
         assert story.blames() == blamed
+
+
+def test_a_call_of_another_component_than_the_one_that_waits_is_lost() -> None:
+    go = (s.GetPortElement("server", "in", "api"), *LINKED[s.SERVICE_CONNECTOR][:-1], s.Break("line"), PLAIN[-1])
+    story = Story(s.Invoke("api", 8, thread="v"), plain=(*go[1:3], go[0], *go[3:]))
+    story.put(t.Enter, thread=2, component="client", instance=1, hook="exchange", port="go", value=7)
+    story.put(t.Request, thread=2, component="client", instance=1, port="out", value=7)
+    assert story.blames() == ""
+    story.put(t.Call, thread=3, step=len(go))
+    assert story.blames() == "R-11.2.3-03"
 
 
 def test_calls_before_the_start_may_wait() -> None:

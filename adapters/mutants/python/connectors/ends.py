@@ -19,6 +19,7 @@ from ucm_cts.adapters.contract.programming_model import (
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.mutants.python.variants.readings import cascades
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, OK, Link, Taker
 from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
@@ -262,3 +263,22 @@ def attaches_any_interfaces(_self: Link, *_: object) -> None:
 def attaches_any_receivers(self: Link, *_: object) -> bool:
     """A message connector takes port elements of any interface as its ends."""
     return self.connector != MESSAGE_CONNECTOR
+
+
+@breaks(
+    "R-11.2.3-11",
+    clauses=("10.1.2", "10.1.5", "10.1.6"),
+    readings={
+        "remove-while-connected": "cascade",
+        "remove-provider-in-use": "cascade",
+        "remove-while-ready": "cascade",
+    },
+)
+class keeps_attached_clients(cascades):
+    """A client or emitter that is attached to a connector is not removed; whatever else is connected is."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        targets = [connection.target for connection in self._connections_from(self._find_member(comp_instance))]
+        if any(link._is_behind(target) for link in self.manager.links for target in targets):
+            raise UcmError("the component is attached")
+        super().remove_component(comp_instance)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from ucm_cts.adapters.contract.programming_model import PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, HandsOverProxies, PeerProxy, Proxy, breaks
@@ -135,3 +137,27 @@ class any_twin_will_do(GivesOutProxies):
         wanted = self.members[comp_instance].implementation
         twin = next(m for m in self.members.values() if m.implementation is wanted)
         return Proxy(twin.body.get_portElement(port_name) or element, twin)
+
+
+class _OpenUnlessAnotherStops(Proxy):
+    def exchange(self, value: int) -> int:
+        own = self.member.container
+        if any(container is not own for container in own.manager.__dict__.get("stopping", ())):
+            raise UcmError("a container is being stopped")
+        return super().exchange(value)
+
+
+@breaks("R-11.2.1.2-07")
+class serves_no_call_while_another_container_stops(GivesOutProxies):
+    """A call of the test is refused while another container than that of the component is being stopped."""
+
+    proxy = _OpenUnlessAnotherStops
+
+    def stop(self) -> None:
+        stopping: list[Container] = self.manager.__dict__.setdefault("stopping", [])
+        stopping.append(self)
+        time.sleep(0.05)
+        try:
+            super().stop()
+        finally:
+            stopping.remove(self)
