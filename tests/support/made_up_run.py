@@ -31,6 +31,7 @@ from ucm_cts.adapters.contract.trace import (
     Reply,
     Request,
     Return,
+    Trace,
 )
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.results.statement import default_statement
@@ -89,6 +90,11 @@ STEPS: tuple[Step, ...] = (
     Destroy(),
 )
 API = Reference(component="provider", instance=1, port="in_api")
+
+
+def lasting(first: int, last: int) -> Trace:
+    """A trace from one millisecond to the other."""
+    return Call(n=1, t=first * 1_000_000, thread=0, step=0), Call(n=2, t=last * 1_000_000, thread=0, step=1)
 
 
 def begin(tape: Tape) -> None:

@@ -22,6 +22,7 @@ from ucm_cts.adapters.mutants.python.registry import (
     breaks,
     family,
 )
+from ucm_cts.adapters.mutants.python.variants.execution import refuses_to_start_components_without_policy
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.policies import ProtectedElement
 
@@ -105,14 +106,8 @@ def truncates_results_of_the_second_active_port(_self: _Truncates, member: Membe
 
 
 @breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "default"})
-class starts_nobody_without_policy(Base):
+class starts_nobody_without_policy(refuses_to_start_components_without_policy):
     """The vendor declares a default policy for components without execution policy; their container is not started."""
-
-    def _check_startable(self) -> None:
-        for member in self.members.values():
-            if not member.execution.definition:
-                raise UcmError(f"{member.implementation.name!r} has no execution policy")
-        super()._check_startable()
 
 
 @breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "refuse"})
