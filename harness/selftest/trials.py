@@ -260,12 +260,13 @@ def _is_killed(ran: _Trial, subject: Subject) -> bool:
 
 
 def _undecided(report: FrameworkReport, purposes: Iterable[TestPurpose], statement: Statement) -> str:
-    """The requirements that ``purposes`` ask for and that are not decided, told as a trouble: what a vendor may declare leaves none so,
+    """The requirements that ``purposes`` ask for and that nothing exercised, told as a trouble: what a vendor may declare leaves none so,
     but for those that need a test facility which is not offered.
     """
     asked = {requirement for purpose in purposes for requirement in purpose.requirements}
     decidable = {r.id for r in load_requirements() if r.id in asked and why_not(r, statement) is None}
-    unsettled = [r.id for r in report.requirements if r.id in decidable and r.verdict in ("error", "inconclusive")]
+    without = (r for r in report.requirements if r.verdict in ("error", "inconclusive") and not r.exercised)
+    unsettled = [r.id for r in without if r.id in decidable]
     return f"undecided: {', '.join(unsettled)}" if unsettled else ""
 
 
