@@ -1,5 +1,6 @@
-"""Scenarios in which components make the calls that the test makes in others: for vendors whose references are not guarded when the test
-itself calls them (``raw-references = unprotected``).
+"""Scenarios in which components make the calls that the test makes in others.
+
+They are for vendors whose references are not guarded when the test itself calls them (``raw-references = unprotected``).
 """
 
 from __future__ import annotations
