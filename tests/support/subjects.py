@@ -249,6 +249,19 @@ class Dawdles(Base):
 Dawdling = bind("Dawdling", Dawdles)
 
 
+class DawdlesOnce(Base):
+    """Calls back half a second after a timer has expired, the first time in each runtime."""
+
+    def _call_back(self, member: Member, timer: Timer) -> None:
+        if self.manager.__dict__.setdefault("dawdles", True):
+            self.manager.__dict__["dawdles"] = False
+            time.sleep(0.5)
+        super()._call_back(member, timer)
+
+
+DawdlingOnce = bind("DawdlingOnce", DawdlesOnce)
+
+
 class Slips(Base):
     """Forgets to tell a body that it is removed, while there is something to forget."""
 

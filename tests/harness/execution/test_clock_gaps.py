@@ -129,8 +129,7 @@ def test_a_callback_that_did_not_come_is_not_told_as_late(
 @pytest.mark.parametrize("name", ["several/a number in use", "several/a periodic number in use"])
 def test_a_number_in_use_whose_callback_is_late_is_told_as_late(name: str) -> None:
     (purpose,) = (p for p in load_purposes("extensions") if p.id == "index timers/several")
-    subjects.Dawdles.left = 1
-    with Driver(locate("subjects:Dawdling", True), seed=5) as driver:
+    with Driver(locate("subjects:DawdlingOnce", virtual_time=True), seed=5) as driver:
         (answer,) = driver.run([(name, dict(purpose.scenarios)[name])])
     monitor = Monitor(load_life_cycle(), READABLE.ics)
     found = monitor.judge(answer.disguised, answer.trace).findings
