@@ -55,9 +55,8 @@ def _is_all_that_is_wrong(runtime: ObservedRuntime, container: Container) -> boo
     10.1.3, and connections have equal ends.
     """
     members = container.live_members()
-    if container.started is not False or len(members) < len(
-        [m for c in runtime.containers.values() for m in c.live_members()]
-    ):
+    elsewhere = any(c.live_members() for c in runtime.containers.values() if c is not container)
+    if container.started is not False or elsewhere:
         return False
     is_plain = all(m.declaration.policies[1:] == () and not m.suspended for m in members)
     is_plain = is_plain and all(p.definition in policies.OF_THE_CORE for m in members for p in m.declaration.policies)
