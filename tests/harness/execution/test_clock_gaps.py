@@ -126,6 +126,7 @@ def test_a_callback_that_did_not_come_is_not_told_as_late(
     assert numbers._late_by(old, (old, due), due, came) == late
 
 
+@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize("name", ["several/a number in use", "several/a periodic number in use"])
 def test_a_number_in_use_whose_callback_is_late_is_told_as_late(name: str) -> None:
     (purpose,) = (p for p in load_purposes("extensions") if p.id == "index timers/several")
