@@ -22,8 +22,7 @@ from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import CONTAINER, CORE, POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.execution import Executor, Trigger
 from ucm_cts.adapters.reference.python.members import Failures, Member
-
-_EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
+from ucm_cts.adapters.sdk.python.policies import EXECUTION
 
 T = TypeVar("T")
 
@@ -227,7 +226,7 @@ class refuses_components_without_policy(Base):
     """A component without execution policy is refused when it is added."""
 
     def _check_policies(self, implementation: Implementation) -> None:
-        if not any(policy.definition in _EXECUTION for policy in implementation.policies):
+        if not any(policy.definition in EXECUTION for policy in implementation.policies):
             raise UcmError(f"{implementation.name!r} has no execution policy")
         super()._check_policies(implementation)
 
@@ -260,7 +259,7 @@ class manages_whole_components(Base):
         if any(policy.definition == ACTIVE and policy.port is not None for policy in implementation.policies):
             raise UcmError(f"{ACTIVE!r} applies to components")
         others = tuple(policy for policy in implementation.policies if policy.definition != ACTIVE)
-        if len([policy for policy in implementation.policies if policy.definition in _EXECUTION]) > 1:
+        if len([policy for policy in implementation.policies if policy.definition in EXECUTION]) > 1:
             raise UcmError(f"{implementation.name!r} has more than one execution policy")
         super()._check_policies(dataclasses.replace(implementation, policies=others))
 

@@ -7,10 +7,10 @@ import dataclasses
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
+from ucm_cts.adapters.sdk.python.policies import EXECUTION
 
 _ACTIVE = (s.ACTIVE, s.PERIODIC_ACTIVE, s.SPORADIC_ACTIVE)
-_OF_THE_CORE = (s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE, s.UNPROTECTED_PASSIVE)
-_KNOWN = {*_OF_THE_CORE, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE}
+_KNOWN = {*EXECUTION, s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE}
 
 
 @variant_of(*POLICIES, "9.4.3.2", readings={"unknown-policy": "refused"})
