@@ -1,13 +1,15 @@
 """What a second worker gains, and how busy a cluster is: ``python -m ucm_cts.harness.bench.campaigns``.
 
-Real units are done by one and by two workers in turns, so that both meet the same machine. For a cluster there are simulated workers,
-all in this process, whose units wait a second each.
+Real units are done in turns by one worker with one processor, by one with two, and by two with two, so that all meet the same machine. A worker and
+the hosts that it starts are several processes: one worker that may use two processors does use a part of the second.
+For a cluster there are simulated workers, all in this process, whose units wait a second each.
 """
 
 from __future__ import annotations
 
 import argparse
 import asyncio
+import os
 import tempfile
 import time
 from collections.abc import Iterator
@@ -18,6 +20,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
+from ucm_cts.harness.bench.measuring import empty_table
 from ucm_cts.harness.campaigns import cluster
 from ucm_cts.harness.campaigns.agenda import Agenda
 from ucm_cts.harness.campaigns.conducting import conduct
@@ -40,6 +43,11 @@ virtual-time = true
 """
 
 
+_TWO = "two, two processors"
+_SIDES = {"one, one processor": (1, 1), "one, two processors": (1, 2), _TWO: (2, 2)}
+"""How many workers, and how many processors they and what they start may use."""
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=2, help="how many runs of profile container each side does")
@@ -56,25 +64,38 @@ def main() -> None:
 
 
 def _speed_up(console: Console, rounds: int, scenarios: int) -> Table:
-    """Each round is one run of profile container with a seed of its own, by one worker and by two."""
-    seconds = {1: 0.0, 2: 0.0}
+    """Each round is one run of profile container with a seed of its own, done by each side. The first is not counted: workers derive what all units need."""
+    seconds = dict.fromkeys(_SIDES, 0.0)
     units = 0
     with ExitStack() as stack:
-        clients = {number: stack.enter_context(cluster.embedded(number)) for number in seconds}
-        for seed in range(rounds + 1):  # the first one is not counted: workers derive what all units need
+        clients = {}
+        for side, (workers, processors) in _SIDES.items():
+            with _only_on(processors):
+                clients[side] = stack.enter_context(cluster.embedded(workers))
+        for seed in range(rounds + 1):
             work = _real(seed, scenarios)
-            for number in (1, 2) if seed % 2 else (2, 1):
-                done, took = _done(work, clients[number])
+            for side in _SIDES if seed % 2 else reversed(_SIDES):
+                done, took = _done(work, clients[side])
                 if seed:
-                    seconds[number] += took
-                    units += done if number == 1 else 0
+                    seconds[side] += took
             if seed:
-                console.print(
-                    f"{units} units: {seconds[1]:.0f} s and {seconds[2]:.0f} s, {seconds[1] / seconds[2]:.2f}"
-                )
-    table = Table("units", "one worker, s", "two workers, s", "as fast", title="A second worker")
-    table.add_row(f"{units:,}", f"{seconds[1]:.1f}", f"{seconds[2]:.1f}", f"{seconds[1] / seconds[2]:.2f}")
+                units += done
+                console.print(f"{units} units: " + ", ".join(f"{side} {seconds[side]:.0f} s" for side in _SIDES))
+    table = empty_table("A second worker", "workers|units|s|two workers are as fast")
+    for side in _SIDES:
+        table.add_row(side, f"{units:,}", f"{seconds[side]:.1f}", f"{seconds[side] / seconds[_TWO]:.2f}")
     return table
+
+
+@contextmanager
+def _only_on(processors: int) -> Iterator[None]:
+    """What is started meanwhile uses so many processors at most."""
+    all_of_them = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, sorted(all_of_them)[:processors])
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, all_of_them)
 
 
 def _real(seed: int, scenarios: int) -> Work:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Raise, Return, Stressed, Timeout
@@ -45,20 +47,20 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
     without = ex.without_policy(runtime, ongoing.container)
     if without and isinstance(ongoing.end, Return) and ongoing.judged:
         return _treated(check, runtime, ongoing, option, "default", without[0].lane)
-    if without and isinstance(ongoing.end, Raise) and _is_all_that_is_wrong(runtime, ongoing.container):
+    if without and isinstance(ongoing.end, Raise) and _only_they_are_wrong((), runtime, ongoing.container):
         return _treated(check, runtime, ongoing, option, "refuse", without[0].lane)
     return ()
 
 
-def _is_all_that_is_wrong(runtime: ObservedRuntime, container: Container) -> bool:
-    """May a start of ``container`` be refused for nothing but that members have no policy? Nobody is elsewhere, all others have one policy of
-    10.1.3, and connections have equal ends.
+def _only_they_are_wrong(they: Collection[Member], runtime: ObservedRuntime, container: Container) -> bool:
+    """May a start of ``container`` be refused for nothing but the policies that ``they`` have, or that members lack? Nobody is elsewhere, all others
+    have at most one policy, all policies are of 10.1.3, and connections have equal ends.
     """
     members = container.live_members()
     elsewhere = any(c.live_members() for c in runtime.containers.values() if c is not container)
     if container.started is not False or elsewhere:
         return False
-    is_plain = all(m.declaration.policies[1:] == () and not m.suspended for m in members)
+    is_plain = all((m in they or m.declaration.policies[1:] == ()) and not m.suspended for m in members)
     is_plain = is_plain and all(p.definition in policies.OF_THE_CORE for m in members for p in m.declaration.policies)
     differs = any(is_misfit(c) for m in members for c in m.connections if c.live is not False)
     return is_plain and not differs and not runtime.interactions.improper()
@@ -116,6 +118,8 @@ def active_policies(check: Property, runtime: ObservedRuntime, ongoing: Operatio
     twice = [m for m in ongoing.container.live_members() if _is_active_twice(m.declaration)]
     if twice and ongoing.judged and isinstance(ongoing.end, Return):
         return _treated(check, runtime, ongoing, option, "allow", twice[0].lane)
+    if twice and isinstance(ongoing.end, Raise) and _only_they_are_wrong(twice, runtime, ongoing.container):
+        return _treated(check, runtime, ongoing, option, "refuse", twice[0].lane)
     return ()
 
 

@@ -161,6 +161,21 @@ def refuses_what_it_says_it_allows(_self: Base, implementation: Implementation) 
     return len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1
 
 
+@refuses_if(
+    "_check_startable",
+    "R-10.1.3-03",
+    readings={"second-active-policy": "allow"},
+    clauses=POLICIES,
+    also=("R-11.2.3-06",),
+)
+def refuses_to_start_what_it_says_it_allows(self: Base) -> bool:
+    """The vendor declares that two active ports of a component are accepted; the container of such a component does not start."""
+    policies = [
+        [p for p in member.implementation.policies if p.definition == ACTIVE] for member in self.members.values()
+    ]
+    return any(len(active) > 1 for active in policies)
+
+
 @breaks("R-10.1.3.2-01", clauses=POLICIES, readings={"run-trigger": "once"})
 class runs_more_often_than_it_says(Base):
     """The vendor declares that run is called once a start; it is called repeatedly."""
