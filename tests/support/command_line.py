@@ -50,6 +50,14 @@ def report_of(folder: Path) -> dict[str, Any]:
     return report
 
 
+def blameless(report: dict[str, Any]) -> set[str]:
+    """The failing requirements, none of them the adapter's fault."""
+    assert report["verdict"] == "not conformant"
+    assert not report["incidents"]
+    assert "error" not in {r["verdict"] for r in report["requirements"]}
+    return {r["id"] for r in report["requirements"] if r["verdict"] == "fail"}
+
+
 def within(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Work in ``folder``, with the adapters of tests/support/subjects.py within reach of hosts."""
     monkeypatch.chdir(folder)

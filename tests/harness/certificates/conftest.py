@@ -1,8 +1,9 @@
-"""Certificates of real runs, made once."""
+"""Certificates of real runs, made once; and a record of one."""
 
 from __future__ import annotations
 
 import pytest
+from judged_runs import Run, run_of
 from workshop import Workshop
 
 
@@ -15,3 +16,9 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
     outcome = made.certify("reference-py", "acme.ucmcert", "--seed", "5", "--artifact", library)
     assert outcome.status == 0, outcome
     return made
+
+
+@pytest.fixture(scope="module")
+def conformant() -> Run:
+    """A run of a conformant framework, with drawn scenarios."""
+    return run_of("reference-py", "R-11.2.2.2-07", drawn=20)
