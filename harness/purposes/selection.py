@@ -15,6 +15,7 @@ from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.derived.messages import message_purposes
 from ucm_cts.harness.purposes.derived.object_timers import object_timer_purposes
 from ucm_cts.harness.purposes.derived.paced_calls import paced_call_purposes
+from ucm_cts.harness.purposes.derived.paced_connections import paced_connection_purposes
 from ucm_cts.harness.purposes.derived.paced_policies import policy_purposes
 from ucm_cts.harness.purposes.derived.paced_runs import run_purposes as paced_run_purposes
 from ucm_cts.harness.purposes.derived.request_response import request_purposes
@@ -50,6 +51,7 @@ _EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (
     policy_purposes,
     paced_run_purposes,
     paced_call_purposes,
+    paced_connection_purposes,
     index_timer_purposes,
     object_timer_purposes,
 )

@@ -71,7 +71,9 @@ def runs_at_the_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if len(runs) < _MANY or phase.may_catch_up:
             continue
         mean = (runs[-1].t - runs[0].t) / (len(runs) - 1)
-        one = lateness(runtime) / (len(runs) - 1) + granularity(runtime)
+        fine = granularity(runtime)
+        rounded = fine if fine and phase.period % fine else 0  # each period may be rounded to what the clock can tell
+        one = (lateness(runtime) + fine) / (len(runs) - 1) + rounded
         if -one <= mean - phase.period <= (lateness(runtime) if chained else one):
             yield check.kept()
             continue

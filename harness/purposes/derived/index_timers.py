@@ -39,6 +39,9 @@ from ucm_cts.reference_models.model.clock_readings import LOCAL, SYNCHRONIZED
 _LARGE = (0, 300, s.LARGEST_NUMBER)
 """Numbers that not every type of numbers has."""
 
+_ALIKE = (1, 2**8 + 1, 2**16 + 1, 2**31 + 1)
+"""Numbers that are the same where numbers are kept in 8, 16 or 31 bits."""
+
 _DOZENS = 100
 
 
@@ -110,6 +113,8 @@ def _several() -> TestPurpose:
     """Numbers of any size, timers that wait at once, and dozens of them."""
     orders = tuple(sporadic(number, seconds, 1) for number, seconds in zip((7, *_LARGE), (2, 1, 2, 1), strict=True))
     cases = [("numbers", alone(timed(*orders), tell(1), after(2)))]
+    alike = tuple(sporadic(number, seconds, 1) for number, seconds in zip(_ALIKE, (2, 1, 2, 1), strict=True))
+    cases.append(("numbers whose low bytes are one", alone(timed(*alike), tell(1), after(2))))
     kinds = (periodic(1, 1, 1, 1), sporadic(2, 2, 1), periodic(3, 2, 1, 1), sporadic(4, 1, 1), sporadic(9, 3, 1))
     cases.append(("five at once", alone(timed(*kinds), tell(1), after(3.1))))
     many = tuple(sporadic(number, 1 + number % 2, 1) for number in range(1, _DOZENS + 1))
@@ -133,7 +138,7 @@ def _periodic() -> TestPurpose:
     """Delays and rates that differ, until somebody cancels."""
     orders = (periodic(1, 2, 1, 1), periodic(2, 1, 2, 1), cancel(1, 2))
     cases = [("two rates", alone(timed(*orders), tell(1), after(5.1), tell(2), after(1.7)))]
-    cases.append(("one second", alone(timed(periodic(300, 1, 1, 1)), tell(1), after(6.1))))
+    cases.append(("one second", alone(timed(periodic(300, 1, 1, 1)), tell(1), after(12.1))))
     own = (tell(1), after(3))
     cases.append(("cancelled in its callback", alone(timed(periodic(1, 1, 1, 1), on_timeout=(cancel_own(),)), *own)))
     return purposes_about("periodic", "30 31 32 36 38 39", *cases)
@@ -183,6 +188,10 @@ def _cancel() -> TestPurpose:
     ]
     of_all = alone(timed(*large), tell(1), s.Pause(200), tell(3), tell(2), tell(3), after(1))
     cases.append(("of numbers of any size", of_all))
+    alike = (*(sporadic(number, 1, 1) for number in _ALIKE), cancel(_ALIKE[1], 2), cancel(_ALIKE[3], 2))
+    asked = tuple(is_canceled(number, 3) for number in _ALIKE)
+    two = alone(timed(*alike, *asked), tell(1), s.Pause(200), tell(3), tell(2), tell(3), after(1))
+    cases.append(("of numbers whose low bytes are one", two))
     return purposes_about("cancel", "22 38 39 40 .04", *cases)
 
 
@@ -368,6 +377,8 @@ def _in_callbacks() -> TestPurpose:
     cases = [("one starts the next", alone(chain, tell(1), after(3)))]
     anew = timed(periodic(1, 1, 1, 1), on_timeout=(cancel_own(), periodic(1, 2, 2)))
     cases.append(("one starts itself anew", alone(anew, tell(1), after(3))))
+    late = timed(sporadic(1, 1, 1), s.HoldAtGate(INSIDE), policies=(PASSIVE, TIMERS), on_timeout=(sporadic(50, 1),))
+    cases.append(("one that had to wait starts the next", alone(late, *while_held(1600, 1.1))))
     other = timed(sporadic(1, 1, 1), periodic(2, 2, 1, 1), on_timeout=(cancel(2), is_canceled(2)))
     cases.append(("one cancels another", alone(other, tell(1), after(2.5))))
     return purposes_about("in callbacks", "22 38 40 41", *cases)

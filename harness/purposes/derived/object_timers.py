@@ -151,6 +151,8 @@ def _repeated() -> TestPurpose:
     cases.append(("two of one length", alone(two, tell(1), after(1.0))))
     series = (tell(1), after(6.9))
     cases.append(("forty", alone(scheduling(repeated(0.3, 0.16, 40, 1), on_trigger=()), *series)))
+    quick = scheduling(repeated(0.1, 0.021, 300, 1), on_trigger=())
+    cases.append(("three hundred", alone(quick, tell(1), after(0.1 + 299 * 0.021))))
     many = scheduling(
         repeated(0.2, 1.5, 2, 1), repeated(0.2, 0.4, 2**31, 1, SECOND), repeated(0.3, 0.4, 2**32 - 1, 1, THIRD)
     )
@@ -379,6 +381,9 @@ def _in_triggers() -> TestPurpose:
     cases = [("one makes others", alone(chain, tell(1), after(0.3)))]
     single = scheduling(once(0.2, 1), on_trigger=(*ASKS, once(0.3, handler=THIRD)))
     cases.append(("each makes one", alone(single, tell(1), after(0.9))))
+    makes = (once(0.4, handler=THIRD),)
+    late = scheduling(once(0.2, 1), *_HOLDS, policies=(PASSIVE, SCHEDULES), on_trigger=(*ASKS, *makes))
+    cases.append(("one that had to wait makes one", alone(late, *while_held(500, 0.5))))
     other = scheduling(once(0.5, 1, SECOND), once(0.2, 1), on_trigger=(made(s.CANCEL), made(s.IS_CANCELLED)))
     cases.append(("one cancels another", alone(other, tell(1), after(0.6))))
     return _about("in triggers", "01 31 33", *cases)

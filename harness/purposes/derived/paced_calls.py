@@ -6,35 +6,29 @@ import functools
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Integer, message_interface
 from ucm_cts.adapters.contract.scenario import Declaration, Hook, Policy, Scenario, Step
-from ucm_cts.harness.purposes.connections import MESSAGE, provided_end, required_end
 from ucm_cts.harness.purposes.derived.paced_policies import NAMES, OTHER_PORT, PORT, policy, purposes_about
 from ucm_cts.harness.purposes.derived.through_components import through_components
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
-_INSIDE, _GOT = "inside", "got"
+_INSIDE = "inside"
 _PERIODIC, _SPORADIC = s.PERIODIC_ACTIVE, s.SPORADIC_ACTIVE
 
 _USUAL, _WIDE, _LONG = 50, 100, 300
 """Periods in milliseconds. With the long one lateness shows."""
 
 _BURST = 5
-_MESSAGE = message_interface(Integer("ULONG"))
-_MESSAGE_PORT = "message.api"
-_INTERFACE = "numbers"
-
-_APART = {_PERIODIC: "2-10 2-11 2-12", _SPORADIC: "2-15 2-16 2-17"}
-_EACH_ONCE = {_PERIODIC: "2-08 2-09", _SPORADIC: "2-13 2-14"}
+APART = {_PERIODIC: "2-10 2-11 2-12", _SPORADIC: "2-15 2-16 2-17"}
+EACH_ONCE = {_PERIODIC: "2-08 2-09", _SPORADIC: "2-13 2-14"}
+"""The requirements on distances, and on single executions, of each policy."""
 
 
 def paced_call_purposes() -> list[TestPurpose]:
-    """Bursts, single calls, offsets, long executions, messages, phases, several components; of both policies."""
+    """Bursts, single calls, offsets, long executions, phases, several components; of both policies."""
     purposes = [_offsets(), through_components(_offsets())]
     for definition in (_PERIODIC, _SPORADIC):
         purposes += [of(definition) for of in (_bursts, _single, _held, _phases, _several)]
         purposes.append(through_components(_held(definition)))
-        purposes += _messages(definition)
     return purposes
 
 
@@ -84,7 +78,7 @@ def _bursts(definition: str) -> TestPurpose:
     slow = _server(policy(definition, _LONG))
     for early in (20, 150):
         cases.append((f"a long period, after {early} ms", _scenario(slow, s.Pause(early), *_burst_of(["api"] * 3, 1))))
-    return purposes_about(f"{NAMES[definition]}/bursts", f"{_EACH_ONCE[definition]} {_APART[definition]}", *cases)
+    return purposes_about(f"{NAMES[definition]}/bursts", f"{EACH_ONCE[definition]} {APART[definition]}", *cases)
 
 
 def _single(definition: str) -> TestPurpose:
@@ -104,7 +98,7 @@ def _single(definition: str) -> TestPurpose:
     unmanaged = (*_calls("aux", "aux"), *_joins(2), *_calls("api", first=3), *_joins(1, 3))
     cases.append(("beside a port that is not managed", _scenario(server, *unmanaged)))
     cases.append(("no call", _scenario(_server(*_both(definition, 10)), s.Pause(120))))
-    return purposes_about(f"{NAMES[definition]}/single calls", f"{_EACH_ONCE[definition]} {_APART[definition]}", *cases)
+    return purposes_about(f"{NAMES[definition]}/single calls", f"{EACH_ONCE[definition]} {APART[definition]}", *cases)
 
 
 def _offsets() -> TestPurpose:
@@ -120,7 +114,7 @@ def _offsets() -> TestPurpose:
 
 
 def _held(definition: str) -> TestPurpose:
-    """An execution is held across several periods while others wait."""
+    """An execution is held across several periods, or for a part of one, while others wait."""
     cases = []
     plan: dict[Hook, tuple[s.Action, ...]] = {"exchange": (s.HoldAtGate(_INSIDE),)}
     for name, policies, other in (
@@ -148,51 +142,11 @@ def _held(definition: str) -> TestPurpose:
         *_joins(2),
     )
     cases.append(("a port that is not managed", _scenario(_server(policy(definition, _USUAL), plan=plan), *unmanaged)))
-    own = _APART[definition].split()[0 if definition == _SPORADIC else 2]
+    brief = (*_calls("api"), s.ReachGate(_INSIDE), *_calls("api", first=2), s.Settle("caller 2"))
+    let_go = (s.Pause(_LONG // 6), s.OpenGate(_INSIDE), *_joins(2))
+    cases.append(("a part of a period", _scenario(_server(policy(definition, _LONG), plan=plan), *brief, *let_go)))
+    own = APART[definition].split()[0 if definition == _SPORADIC else 2]
     return purposes_about(f"{NAMES[definition]}/long executions", f"2-19 {own}", *cases)
-
-
-def _messages(definition: str) -> list[TestPurpose]:
-    """An emitter pushes three messages: farther apart than a period, and at once where early ones are declared to wait."""
-    own, at_once = _EACH_ONCE[definition], "early-invocation=delayed" if definition == _SPORADIC else ""
-    return [
-        purposes_about(f"{NAMES[definition]}/messages", own, ("far apart", _pushed(definition, _USUAL + 20))),
-        purposes_about(f"{NAMES[definition]}/messages at once", own, ("three", _pushed(definition, 0)), under=at_once),
-    ]
-
-
-def _pushed(definition: str, between: int) -> Scenario:
-    """So many milliseconds pass between two messages; none if 0."""
-    receiver = Declaration(
-        (_MESSAGE_PORT,),
-        policies=(policy(definition, _USUAL, port=_MESSAGE_PORT),),
-        plan={"method": (s.HoldAtGate(_GOT), s.Answer(s.PUSH, ("ok",)))},
-        ports={_MESSAGE_PORT: _INTERFACE},
-    )
-    pushes = tuple(s.CallMethod("out.api", s.PUSH, (n,), given=n) for n in (11, 22, 33))
-    if not between:
-        pushes = tuple(s.CallMethod("out.api", s.PUSH, (n,)) for n in (11, 22, 33))
-    emitter = Declaration((PORT,), ("out.api",), plan={"exchange": pushes}, ports={"out.api": _INTERFACE})
-    told: list[Step] = [s.Invoke("tell", 1), s.ReachGate(_GOT, total=3)]
-    if between:
-        told = [
-            step
-            for n in (11, 22, 33)
-            for step in (s.Invoke("tell", n), s.ReachGate(_GOT, total=n // 11), s.Pause(between))
-        ]
-    steps = (
-        s.AddComponent("receiver"),
-        s.AddComponent("emitter"),
-        s.Link(MESSAGE, _INTERFACE, "line"),
-        provided_end(MESSAGE, "line", "receiver", _MESSAGE_PORT),
-        required_end(MESSAGE, "line", "emitter"),
-        s.GetPortElement("emitter", PORT, "tell"),
-        s.OpenGate(_GOT),
-        s.Start(),
-        *told,
-        s.Stop(),
-    )
-    return Scenario({"receiver": receiver, "emitter": emitter}, steps, interfaces={_INTERFACE: _MESSAGE})
 
 
 def _phases(definition: str) -> TestPurpose:
@@ -209,7 +163,7 @@ def _phases(definition: str) -> TestPurpose:
     once = functools.partial(_burst_of, ("api", "aux", "api"))
     again = (*once(1), s.Stop(), s.Pause(_USUAL + 10), s.Start(), *once(11), s.Stop(), s.Start(), *once(21))
     cases.append(("restart", _scenario(quick, *again)))
-    return purposes_about(f"{NAMES[definition]}/phases", f"2-20 2-21 {_EACH_ONCE[definition]}", *cases)
+    return purposes_about(f"{NAMES[definition]}/phases", f"2-20 2-21 {EACH_ONCE[definition]}", *cases)
 
 
 def _burst_of(refs: Sequence[str], first: int) -> tuple[Step, ...]:
@@ -238,7 +192,7 @@ def _several(definition: str) -> TestPurpose:
     )
     cases.append(("two instances", Scenario(server, steps)))
     cases += [("in another container", _below(definition)), ("called by components", _peers(definition))]
-    return purposes_about(f"{NAMES[definition]}/several", f"1-27 {_EACH_ONCE[definition]}", *cases)
+    return purposes_about(f"{NAMES[definition]}/several", f"1-27 {EACH_ONCE[definition]}", *cases)
 
 
 def _below(definition: str) -> Scenario:

@@ -17,6 +17,13 @@ _SHORT, _USUAL, _LONG = 10, 20, 300
 """Periods in milliseconds. With the long one lateness shows."""
 
 _MANY, _VERY_MANY = 31, 61
+_ODD, _SERIES = 21, 300
+"""A period that is no multiple of usual ticks, and more runs than a byte counts. After so many, two parts of a hundred show."""
+
+_WRAPPED = (65_537, 2_147_484, 4_294_968)
+"""Milliseconds of which, or of whose microseconds, few are left where they are kept in 16 or 32 bits."""
+
+_SEVERAL = 9
 _BACKGROUND, _PERIODIC = s.BACKGROUND, s.PERIODIC_SELF_EXECUTING
 _ELSEWHERE = "elsewhere"
 
@@ -48,6 +55,8 @@ def _rates() -> TestPurpose:
         runner = _runner(policy(_PERIODIC, period))
         cases.append((f"each {period} ms", _scenario({"runner": runner}, s.Start(), _runs(count))))
     cases.append(("each 10.5 ms", _scenario({"runner": _runner(policy(_PERIODIC, 10.5))}, s.Start(), _runs(_MANY))))
+    series = (s.Start(), s.Pause(_SERIES * _ODD), _runs(_SERIES))
+    cases.append((f"a series of {_SERIES}", _scenario({"runner": _runner(policy(_PERIODIC, _ODD))}, *series)))
     seconds = _runner(policy(_PERIODIC, 1050, 1020))
     cases.append(("each 1,050 ms after 1,020 ms", _scenario({"runner": seconds}, s.Start(), _runs(1), _runs(2))))
     raising = _runner(policy(_PERIODIC, _USUAL), after=(s.RaiseError(),))
@@ -106,8 +115,17 @@ def _offsets() -> list[TestPurpose]:
         )
         cases.append(("a container that is started later", Scenario(components, steps)))
         cases.append(("a second instance", _second(definition, count)))
+        cases.append(("long ones", _long_times(definition)))
         purposes.append(purposes_about(f"{NAMES[definition]}/offsets", requirements, *cases))
     return purposes
+
+
+def _long_times(definition: str) -> Scenario:
+    """Offsets that do not pass, and periods that do not pass after the first run."""
+    components = {f"after {n} ms": _runner(policy(definition, _USUAL, n)) for n in _WRAPPED}
+    if definition == _PERIODIC:
+        components |= {f"each {n} ms": _runner(policy(definition, n)) for n in _WRAPPED}
+    return _scenario(components, s.Start(), s.Pause(250))
 
 
 def _second(definition: str, count: int) -> Scenario:
@@ -213,6 +231,9 @@ def _several() -> TestPurpose:
     cases.append(("two instances", _scenario(twice, *again)))
     mixed = {"periodic": _runner(policy(_PERIODIC, _USUAL, 5)), "background": _runner(policy(_BACKGROUND, 0, 50))}
     cases.append(("both kinds", _scenario(mixed, s.Start(), _runs(20))))
+    for definition in (_PERIODIC, _BACKGROUND):
+        many = {f"number {n}": _runner(policy(definition, 60, 5 * n)) for n in range(1, _SEVERAL + 1)}
+        cases.append((f"{_SEVERAL} of {NAMES[definition]}", _scenario(many, s.Start(), s.Pause(200))))
     return purposes_about("periodic self-executing/several", "1-27 1-31 2-01", *cases)
 
 
@@ -234,6 +255,9 @@ def _beside() -> TestPurpose:
             s.OpenGate(_INSIDE),
         )
         cases.append((f"{first} first", _scenario(components, *steps, gates=())))
+    both = {"runner": _runner(policy(_BACKGROUND), gate=_INSIDE), "later": _runner(policy(_BACKGROUND, 0, 30))}
+    held = (s.Start(), s.ReachGate(_INSIDE), _runs(1), s.Pause(250), s.OpenGate(_INSIDE), s.Pause(20))
+    cases.append(("another one in the background", _scenario(both, *held)))
     components = {"runner": _runner(policy(_BACKGROUND), gate=_INSIDE), "other": other}
     elsewhere: tuple[Step, ...] = (
         *(s.CreateContainer(_ELSEWHERE), s.AddComponent("runner"), s.AddComponent("other", _ELSEWHERE)),
@@ -241,4 +265,4 @@ def _beside() -> TestPurpose:
         *(s.OpenGate(_INSIDE), s.Stop(_ELSEWHERE), s.Stop()),
     )
     cases.append(("start of another container", Scenario(components, elsewhere)))
-    return purposes_about(f"{NAMES[_BACKGROUND]}/beside others", "2-07", *cases)
+    return purposes_about(f"{NAMES[_BACKGROUND]}/beside others", "2-06 2-07", *cases)
