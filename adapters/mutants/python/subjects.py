@@ -84,7 +84,7 @@ MODULES = {
     "extensions": (
         *("requests", "responses", "request_connections"),
         *("shared_freezes", "shared_notices", "shared_reads", "shared_writes"),
-        *("paced_calls", "paced_parameters", "paced_phases", "paced_runs"),
+        *("paced_calls", "paced_parameters", "paced_phases", "paced_runs", "paced_situations"),
         *("timer_callbacks", "timer_ends", "timer_expiry", "timer_service", "timer_situations"),
         *(
             "object_timer_answers",

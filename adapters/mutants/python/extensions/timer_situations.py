@@ -1,13 +1,18 @@
-"""Wrong frameworks, clause 10.3.2: index timers that fail in one situation: numbers that are started twice, callbacks that raise, a stop."""
+"""Wrong frameworks, clause 10.3: timers that fail in one situation: numbers that are started twice, or alike; callbacks that raise, or are late; a stop."""
 
 from __future__ import annotations
 
+import threading
+from collections import Counter
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from typing import Any
 
-from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
+from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, TRIGGERED, Base, breaks
 from ucm_cts.adapters.mutants.python.variants.triggered_apart import EndsTimersThatRaise
 from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.object_timers import Triggers
 from ucm_cts.adapters.reference.python.timers import Timer, Timers
 
 
@@ -136,3 +141,51 @@ class has_timers_for_each_implementation(Base):
     def _timers_of(self, member: Member) -> Timers:
         like = (one for one in self.members.values() if one.implementation is member.implementation)
         return next((one.timers for one in like if one.timers is not None), None) or super()._timers_of(member)
+
+
+@breaks("R-10.3.2-33", clauses=TIMED, also=("R-10.3.2-36", "R-10.3.2-39", *MISSING_CALLBACKS))
+class takes_numbers_for_equal_by_their_low_bytes(Timers):
+    """A timer ends another one whose number is the same in the lowest sixteen bits."""
+
+    def _start(self, timer: Timer) -> None:
+        alike = [number for number in self._waiting if number % 2**16 == timer.number % 2**16]
+        for number in alike:
+            del self._waiting[number]
+        super()._start(timer)
+
+
+@breaks("R-10.3.2-33", clauses=TIMED, also=("R-10.3.2-30", *MISSING_CALLBACKS))
+class calls_back_ten_times(Timers):
+    """A periodic timer ends with its tenth callback."""
+
+    def _following(self, timer: Timer) -> Timer | None:
+        counts = self.__dict__.setdefault("counts", Counter())
+        counts[timer.number] += 1
+        return None if counts[timer.number] == 10 else super()._following(timer)
+
+
+class _CountsFromWhatWasDue(Timers):
+    """What a callback starts counts from when the callback was due, although that may be long ago."""
+
+    def _call_back_at(self, timer: Timer) -> None:
+        self.__dict__["serving"], self.__dict__["base"] = threading.get_ident(), timer.due
+        self._call_back(timer)
+
+    def _serve(self) -> None:
+        while timer := self._next():
+            self._call_back_at(timer)
+
+    def _due(self, time_out: Sequence[Any]) -> float:
+        if self.__dict__.get("serving") == threading.get_ident():
+            return float(self.__dict__["base"]) + self._seconds(time_out)
+        return super()._due(time_out)
+
+
+@breaks("R-10.3.2-25", clauses=TIMED, also=("R-10.3.2-27",))
+class counts_from_when_its_callback_was_due(_CountsFromWhatWasDue):
+    """A timer that is started in a callback counts from when that callback was due."""
+
+
+@breaks("R-10.3.1-19", clauses=TRIGGERED)
+class counts_from_when_its_trigger_was_due(_CountsFromWhatWasDue, Triggers):
+    """An object timer that is made in a trigger counts from when that trigger was due."""
