@@ -7,8 +7,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.paced_events import MILLISECOND, PacedExecution, PacedPhase
+from ucm_cts.reference_models.model.paced_events import MILLISECOND, Invocation, PacedExecution, PacedPhase
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, paced_phases
 
 READINGS = ("one-a-period", "all-a-period", "at-once-when-idle")
@@ -135,3 +136,19 @@ def in_burst(executions: Iterable[PacedExecution], period: int) -> bool:
     """Were two of them asked for within one period?"""
     asked = sorted(e.asked for e in executions)
     return any(later - earlier < period for earlier, later in itertools.pairwise(asked))
+
+
+def is_early(phase: PacedPhase, invocation: Invocation) -> bool:
+    """Was it made before the least distance had passed since another invocation that was made or executed before it?"""
+    moments = [e.t for e in phase.executions if e.enter.n < invocation.over]
+    moments += [e.left for e in phase.executions if e.t <= invocation.t]
+    moments += [i.t for i in phase.invocations if i is not invocation and i.n < invocation.n]
+    return any(invocation.t - moment < phase.period + phase.period // 4 for moment in moments)
+
+
+def may_be_turned_away(runtime: ObservedRuntime, call: BusinessCall) -> bool:
+    """Did ``call`` come too early for a sporadic component, and may such a call be refused?"""
+    if not runtime.ics.permits("early-invocation", "refused"):
+        return False
+    phases = paced_phases(runtime, s.SPORADIC_ACTIVE)
+    return any(one.call is call and is_early(phase, one) for phase in phases for one in phase.invocations)

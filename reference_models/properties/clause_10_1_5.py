@@ -15,6 +15,7 @@ from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.method_calls import Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.pacing import may_be_turned_away
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_call import ServiceCall, Trouble
 from ucm_cts.reference_models.model.services import (
@@ -61,6 +62,8 @@ def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if trouble == "twice":
             observed = f"the server was entered {len(one.served)} times"
             yield _violate(check, _CALLS, trouble, one, expected, observed)
+        elif trouble == "not served" and _is_turned_away(runtime, one):
+            continue
         elif trouble in ("not served", "elsewhere", "failed"):
             observed = _what_failed(runtime, one, trouble)
             spoilt = trouble == "failed" and any(
@@ -81,6 +84,12 @@ def service_call_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
             observed = "the server was left, and it did not end" if one.exit else "it did not end"
             requirement = _concerned(runtime, one, good)
             yield _violate(check, requirement, "hangs", one, "ends", observed)
+
+
+def _is_turned_away(runtime: ObservedRuntime, one: ServiceCall) -> bool:
+    """Was it refused as too early for a server whose executions must be apart (10.5.2)?"""
+    reply = one.call.reply
+    return reply is not None and reply.failed and may_be_turned_away(runtime, one.call.business)
 
 
 def _hangs(runtime: ObservedRuntime, one: ServiceCall, until: int | None = None) -> bool:

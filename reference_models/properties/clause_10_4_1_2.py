@@ -22,6 +22,9 @@ _CARRIES, _WAITS, _RETURNS, _AS_SERVICES = "R-10.4.1.2-01", "R-10.4.1.2-02", "R-
 _GOES_ON, _REACHES = "R-10.4.1.2-05", "R-10.4.1.2-06"
 _SEVERAL, _UNANSWERED, _APART, _HANGING = "R-10.4.1.2-14", "R-10.4.1.2-15", "R-10.4.1.2-20", "R-10.4.1.2-21"
 
+_MOST_OPEN = 8
+"""So many requests of a client may be open (interpretation open-requests)."""
+
 _SOON = 100_000_000
 """Nanoseconds. No connector gives up a request after so short a time, unless something is wrong."""
 
@@ -58,6 +61,12 @@ def _was_open_before(other: Asked, asked: Asked) -> bool:
     return other.call.request.n < moment and (not other.answers or other.answers[0].moment > moment)
 
 
+def _has_many_open(found: Requests, asked: Asked) -> bool:
+    """Were so many requests of its client open already that a further one may be refused?"""
+    own = (other for other in found.asked if other.client.is_of_port(asked.client) and other.is_ok)
+    return sum(_was_open_before(other, asked) for other in own) >= _MOST_OPEN
+
+
 def _others_are_served(found: Requests, asked: Asked) -> bool:
     """Do requests of other clients enter the server, and none of this one?"""
     own = [a for a in found.asked if a.client.is_of_port(asked.client)]
@@ -90,6 +99,24 @@ def request_arrives(check: Property, runtime: ObservedRuntime) -> Conclusions:
             expected = "enters the server"
             expected += ", though earlier ones are not answered yet" if ahead else ""
             yield _violate(check, requirement, "never", asked, expected, "it did not, and gave ok")
+
+
+@property_at("closed", _CARRIES, _UNANSWERED, timed=True, feature="extended")
+def waiting_request_arrives(check: Property, runtime: ObservedRuntime) -> Conclusions:
+    """The request of a client that waits enters its asynchronous server within patience, whatever is not answered yet."""
+    for found in all_requests(runtime):
+        for asked in found.asked:
+            servers = [end for end, _ in asked.call.targets if not end.is_synchronous]
+            if not asked.waits or asked.entries or not servers:
+                continue
+            overdue = overdue_since(runtime, servers[0].member, asked.call.request)
+            if not overdue or overdue > asked.call.over or not is_sound(runtime, asked, overdue):
+                continue
+            ahead = any(other.entries and _was_open_before(other, asked) for other in found.asked)
+            expected = "enters the server" + (", though earlier ones are not answered yet" if ahead else "")
+            yield _violate(
+                check, _UNANSWERED if ahead else _CARRIES, "never", asked, expected, "it did not, and waited"
+            )
 
 
 @property_at("closed", _SEVERAL, _UNANSWERED, _CLIENTS, feature="extended")
@@ -234,7 +261,7 @@ def client_goes_on(check: Property, runtime: ObservedRuntime) -> Conclusions:
                     yield _violate(check, _GOES_ON, "hangs", asked, "comes back without a response", "it did not")
                 continue
             if not asked.is_ok:
-                if not any(fails(end) for end, _ in asked.call.targets):
+                if not any(fails(end) for end, _ in asked.call.targets) and not _has_many_open(found, asked):
                     yield _violate(
                         check, _CODES, "not ok", asked, "gives ok: nothing is wrong", f"it gave {_got(asked)}"
                     )

@@ -67,7 +67,7 @@ def _carried_out(
         if isinstance(end, Return):
             yield _other_times(check, phase, invocation, 0, requirement)
         elif isinstance(end, Raise) and not phase.member.raises("exchange"):
-            is_early = phase.policy.definition == s.SPORADIC_ACTIVE and _is_early(phase, invocation)
+            is_early = phase.policy.definition == s.SPORADIC_ACTIVE and pacing.is_early(phase, invocation)
             if not is_early or not (yield from takes(runtime, "early-invocation", "refused")):
                 yield _other_times(check, phase, invocation, 0, requirement)
         return
@@ -146,14 +146,6 @@ def _end_of(runtime: ObservedRuntime, invocation: Invocation) -> Return | Raise 
     return next((o.end for o in runtime.interactions.operations if o.begin.n == invocation.n), None)
 
 
-def _is_early(phase: PacedPhase, invocation: Invocation) -> bool:
-    """Was it made before the least distance had passed since another invocation that was made or executed before it?"""
-    moments = [e.t for e in phase.executions if e.enter.n < invocation.over]
-    moments += [e.left for e in phase.executions if e.t <= invocation.t]
-    moments += [i.t for i in phase.invocations if i is not invocation and i.n < invocation.n]
-    return any(invocation.t - moment < phase.period + phase.period // 4 for moment in moments)
-
-
 def _other_times(check: Property, phase: PacedPhase, invocation: Invocation, times: int, requirement: str) -> Finding:
     return check.fail(
         "not executed" if not times else "more than once",
@@ -229,7 +221,9 @@ def _has_turned_away(runtime: ObservedRuntime, phase: PacedPhase, executions: Se
     """Was a call that came too early refused or dropped, as is declared?"""
     if not executions or runtime.ics.reading("early-invocation") not in ("refused", "dropped"):
         return False
-    return any(not one.executions and _is_early(phase, one) for one in phase.invocations if one.over < phase.until)
+    return any(
+        not one.executions and pacing.is_early(phase, one) for one in phase.invocations if one.over < phase.until
+    )
 
 
 @property_at("closed", _AT_ONCE, _NO_SUM, _RESTARTS, feature="paced", timed=True)

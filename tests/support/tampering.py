@@ -28,6 +28,7 @@ def vendor(change: Callable[[Forger], object], kind: str = "plain") -> bytes:
 
 def claimed(**changes: Any) -> Callable[[Forger], None]:
     """Changes what the certificate claims of its run."""
+
     def change(forger: Forger) -> None:
         forger.claims = msgspec.structs.replace(forger.claims, **changes)
 

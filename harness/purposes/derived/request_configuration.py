@@ -34,10 +34,10 @@ ELSEWHERE = "elsewhere"
 _TYPES = "exchange"
 _PORT, _SECOND_PORT = "ask", "more"
 _LONG = Integer("LONG")
-_EACH = 100
+_EACH = 1000
 """The requests of one client are numbered from a multiple of this."""
 
-_GIVEN = 5000
+_GIVEN = 50_000
 """Responses that a server makes up are numbered from here."""
 
 _ANSWER = 77
@@ -134,10 +134,12 @@ class Configuration(ConnectionSteps):
         holds: bool = False,
         second: str = "",
         place: str = s.MANAGER,
+        again: bool = False,
     ) -> Configuration:
         """Clients that make so many requests each when they are called.
 
         ``holds``: and are held afterwards. ``second``: the connection of a second port of each, through which they make as many.
+        ``again``: asynchronous ones make another request whenever they get a response.
         """
         for kind in kinds:
             number = len(self.kinds)
@@ -148,9 +150,10 @@ class Configuration(ConnectionSteps):
                 for nth, port in enumerate(links)
                 for index in range(requests)
             ]
+            once_more = s.CallMethod(f"{_PORT}.{element}", REQUEST, (self._request(number, _EACH - 1),))
             plan: dict[Hook, tuple[Action, ...]] = {
                 "exchange": (*asks, *((s.HoldAtGate(INSIDE),) if holds else ())),
-                "method": (self._at(ANSWERED), s.Answer(RESPONSE, ("ok",))),
+                "method": (self._at(ANSWERED), *((once_more,) if again else ()), s.Answer(RESPONSE, ("ok",))),
             }
             if kind == SYNCHRONOUS:
                 del plan["method"]
@@ -253,6 +256,13 @@ class Configuration(ConnectionSteps):
         """A server that answers apart gives its ``nth`` answer, from 0; wait for so many callbacks."""
         self.steps.append(s.Invoke(f"tell {server}", _ANSWER + nth))
         return self.answered(callbacks)
+
+    def answer_at_once(self, count: int) -> Configuration:
+        """A server that answers apart gives so many answers, each on a thread of its own; wait for as many callbacks."""
+        threads = [f"answerer {nth}" for nth in range(count)]
+        self.steps += [s.Invoke("tell server", _ANSWER + nth, thread=name) for nth, name in enumerate(threads)]
+        self.steps += map(s.Join, threads)
+        return self.answered(count)
 
     def open(self, gate: str) -> Configuration:
         """Open a gate."""

@@ -30,6 +30,12 @@ _OUTSTANDING = 5
 _MOST = 8
 """So many requests of each client may be open (interpretation open-requests)."""
 
+_MANY = 300
+"""More requests than a byte has identifiers for. A framework may refuse them, but none is lost of which it says ok."""
+
+_LONG = 2500
+"""Milliseconds after which a request is not forgotten."""
+
 _QUIET = 100
 """Milliseconds in which nothing is to come."""
 
@@ -82,18 +88,17 @@ def _purpose(name: str, text: str, requirements: str, scenarios: Sequence[tuple[
 
 
 def _pairs() -> TestPurpose:
-    """Clients of each kind ask a server of each kind, one after the other, before and after a restart."""
+    """Clients of each kind ask a server of each kind, one after the other, before and after two restarts."""
     scenarios = []
     for server, kinds in itertools.product(KINDS, _groups()):
         for place in (s.MANAGER, ELSEWHERE):
-            made = Configuration(place).server(server).clients((*kinds, kinds[0]), 2).start()
+            made = Configuration(place).server(server).clients((*kinds, kinds[0], kinds[-1]), 2).start()
             for number in range(len(kinds)):
                 made.ask(number)
-            made.restart()
-            made.ask(len(kinds))
+            made.restart().ask(len(kinds)).restart().ask(len(kinds) + 1)
             where = "one container" if place == s.MANAGER else "server elsewhere"
             scenarios.append((f"{' and '.join(kinds)} to {server}, {where}", made.end()))
-    text = "Clients of each kind ask a server of each kind, before and after a restart."
+    text = "Clients of each kind ask a server of each kind, before and after restarts."
     return _purpose("pairs", text, "1-31 1-32 1-34 1-08 2-01 2-03 2-04 2-06 2-07 2-11", scenarios)
 
 
@@ -126,6 +131,18 @@ def _stored() -> TestPurpose:
     made = Configuration().storing(range(1, 2 * _MOST + 1)).clients((ASYNCHRONOUS, ASYNCHRONOUS), _MOST).start()
     made.ask_all(0, 1).entered(2 * _MOST).answer(2 * _MOST).join(0, 1)
     scenarios.append((f"two clients, {_MOST} each", made.end()))
+    made = Configuration().storing(range(1, _MANY + 1)).clients((ASYNCHRONOUS,), _MANY).start()
+    made.ask_apart(0).join(0).entered(_MANY).answer(_MANY)
+    scenarios.append((f"one client, {_MANY}", made.end()))
+    made = Configuration().storing(range(1, _OUTSTANDING + 1), apart=True).clients((ASYNCHRONOUS,), _OUTSTANDING)
+    made.start().ask_all(0).entered(_OUTSTANDING).join(0).answer_at_once(_OUTSTANDING)
+    scenarios.append(("answers at once", made.end()))
+    made = Configuration().storing((1, 2), apart=True).clients((ASYNCHRONOUS,), 1, again=True).start()
+    made.ask_all(0).entered(1).join(0).answer_next(0, 1).entered(2).answer_next(1, 1).entered(3)
+    scenarios.append(("a client that asks again when it is answered", made.end()))
+    made = Configuration().storing((2, 1)).clients((ASYNCHRONOUS,), 2).start()
+    made.ask_all(0).entered(2).join(0).pause(_LONG).answer(2)
+    scenarios.append(("answers after a long time", made.end()))
     text = "A server stores requests of one client or two, and answers them later."
     return _purpose("stored", text, "1-10 2-08 2-09 2-10 2-12 2-13 2-14 2-15", scenarios)
 
@@ -146,6 +163,10 @@ def _waiting() -> TestPurpose:
         made.ask_apart(number).entered(number + 1)
     made.answer_next(0, 0).join(1).settle(0).settle(2).answer_next(1, 0).join(2).settle(0).answer_next(2, 0).join(0)
     scenarios.append(("three synchronous clients wait, answered one by one", made.end()))
+    for server in KINDS:
+        made = Configuration().server(server).clients((SYNCHRONOUS,) * 4, 2).start()
+        made.ask_all(0, 1, 2, 3).join(0, 1, 2, 3)
+        scenarios.append((f"four synchronous clients of a {server} server at once", made.end()))
     made = Configuration().storing((2, 1)).clients((SYNCHRONOUS, ASYNCHRONOUS), 1).start()
     made.ask_apart(0).entered(1).settle(0).ask_all(1).entered(2).answer(1).join(0, 1)
     scenarios.append(("one waits and one goes on, answered in the order 2, 1", made.end()))
