@@ -82,7 +82,7 @@ MODULES = {
         "service_values",
     ),
     "extensions": (
-        *("requests", "responses", "request_connections"),
+        *("requests", "responses", "request_connections", "request_situations"),
         *("shared_freezes", "shared_notices", "shared_reads", "shared_writes"),
         *("paced_calls", "paced_parameters", "paced_phases", "paced_runs", "paced_situations"),
         *("timer_callbacks", "timer_ends", "timer_expiry", "timer_service", "timer_situations"),

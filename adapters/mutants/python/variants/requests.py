@@ -54,6 +54,15 @@ class returns_when_the_server_did(Link):
             super()._post(end, work)
 
 
+@variant_of(*REQUESTS)
+class refuses_a_ninth_open_request(Link):
+    """A client that has eight open requests gets internal_error for a further one."""
+
+    def _request(self, client: End, request: Datum) -> list[Datum]:
+        is_full = not self.broken and sum(one.client is client for one in self.requests.values()) >= 8
+        return [0, INTERNAL_ERROR] if is_full else super()._request(client, request)
+
+
 @variant_of(*REQUESTS, readings={"request-ids": "translated"})
 class has_numbers_of_its_own_for_servers(Link):
     """Client and server know a request by different numbers."""
