@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, requirements_of
 from ucm_cts.harness.purposes.data.scenarios import data_purposes
+from ucm_cts.harness.purposes.derived.calls_out import calls_from_callbacks, calls_from_run
 from ucm_cts.harness.purposes.derived.index_timers import index_timer_purposes
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
@@ -40,6 +41,7 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     functools.partial(purposes_of, "execution_policies"),
     message_purposes,
     service_purposes,
+    calls_from_run,
     log_message_purposes,
     functools.partial(purposes_of, "port_traces"),
 )
@@ -54,6 +56,7 @@ _EXTENSIONS: tuple[Callable[[], list[TestPurpose]], ...] = (
     paced_connection_purposes,
     index_timer_purposes,
     object_timer_purposes,
+    calls_from_callbacks,
 )
 """Where those of profile extensions come from."""
 

@@ -11,7 +11,7 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.execution_policies import extended_policy
 from ucm_cts.reference_models.model.executions import Execution
 from ucm_cts.reference_models.model.messages import PUNCTUALITY
-from ucm_cts.reference_models.model.method_calls import NEVER
+from ucm_cts.reference_models.model.method_calls import NEVER, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.paced_events import MILLISECOND, PacedExecution, PacedPhase
 from ucm_cts.reference_models.model.paced_phases import granularity, lateness, paced_phases, shown
@@ -269,7 +269,7 @@ def _beside(check: Property, runtime: ObservedRuntime, member: Member, run: Exec
         is_start = isinstance(operation.step, s.Start)
         if not is_start and not isinstance(operation.step, s.Invoke):
             continue
-        if not operation.overlaps(run.enter.n, left) or _concerns(runtime, operation.step, member.body):
+        if not operation.overlaps(run.enter.n, left) or _concerns(runtime, operation, member.body):
             continue
         end = operation.end.n if operation.end is not None else NEVER
         if run.enter.n < end < left and isinstance(operation.end, Return):
@@ -284,9 +284,14 @@ def _beside(check: Property, runtime: ObservedRuntime, member: Member, run: Exec
             )
 
 
-def _concerns(runtime: ObservedRuntime, step: s.Step, body: tuple[str, int]) -> bool:
-    """Does the test call that component itself?"""
+def _concerns(runtime: ObservedRuntime, operation: Operation, body: tuple[str, int]) -> bool:
+    """Does the test call that component itself, or one that executes something else meanwhile, which may keep the call out?"""
+    step = operation.step
     if not isinstance(step, s.Invoke):
         return False
     _, callee = runtime.reference(step.ref)
-    return callee is None or callee.body == body
+    if callee is None or callee.body == body:
+        return True
+    end = operation.end.n if operation.end is not None else NEVER
+    others = (e for e in runtime.executions.of(callee.body) if e.call is None or e.call.n != operation.begin.n)
+    return any(e.enter.n < end and (not e.over or e.end > operation.begin.n) for e in others)

@@ -121,6 +121,10 @@ def _steps() -> TestPurpose:
     scenarios.append(("published twice", made.end()))
     made = joined(1, 2).start().update().update().read().publish().pause(QUIET).read().update().read()
     scenarios.append(("published again after two", made.end()))
+    made = Configuration(values=(7, 7, 8, 7)).connection().writer().reader().reader().start()
+    for _ in range(4):
+        made.update().read()
+    scenarios.append(("equal values", made.end()))
     text = "A writer sets values, and publishes the last one, or none."
     return purpose_about("steps", text, ".2-04 2-15 2-16 2-17 2-03 2-06", scenarios)
 
@@ -146,6 +150,9 @@ def _cancelling() -> TestPurpose:
     scenarios.append(("two values cancelled, then published", made.end()))
     made = joined(1, 2).start().update().write().cancel().write(times=2).publish().await_told(0, 1).read()
     scenarios.append(("cancelled, then two values", made.end()))
+    made = Configuration(values=(7, 8, 8)).connection().writer().reader().start().update().read()
+    made.write().cancel().write().publish().await_told(0).read()
+    scenarios.append(("cancelled, then an equal value", made.end()))
     text = "A writer cancels what it has set, or has published, or nothing."
     return purpose_about("cancelling", text, "2-18 2-19 2-20 2-21 2-03 1-22", scenarios)
 

@@ -1,0 +1,274 @@
+"""Scenarios in which a component calls another one from each place where it may be executed: runs, callbacks, responses, notifications."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Final
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import (
+    AnyType,
+    Datum,
+    Integer,
+    Interface,
+    Method,
+    Parameter,
+    message_interface,
+)
+from ucm_cts.adapters.contract.platform_interfaces import (
+    CONNECTOR_PORTS,
+    NOTIFY,
+    PUBLISH,
+    REQUEST,
+    REQUEST_DATA,
+    REQUEST_RESPONSE,
+    RESPONSE,
+    RESPONSE_DATA,
+    SHARED,
+    SHARED_DATA,
+    WRITE,
+    named_interfaces,
+)
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.harness.purposes.connections import MESSAGE, PROVIDER, REQUIRER, SERVICE
+from ucm_cts.harness.purposes.derived.object_timer_steps import HANDLERS, SCHEDULES, once
+from ucm_cts.harness.purposes.derived.paced_policies import policy
+from ucm_cts.harness.purposes.derived.timer_steps import PORT, SELF, TIMERS, after, sporadic
+from ucm_cts.harness.purposes.scripts import TestPurpose
+
+_CALLER, _CALLED, _OTHER = "caller", "called", "other"
+_TELL = "tell"
+_GO, _GOT = "go", "got"
+"""Gates: a run waits for ``go`` before it calls; whoever is called passes ``got``."""
+
+_LONG = Integer("LONG")
+_VALUE, _RESPONSE = 41, 42
+
+
+@dataclass(frozen=True)
+class _Connection:
+    """A connection between two components, and what the one that calls does with it.
+
+    ``connector``: its name. ``calls``: the role of the component that calls, and ``called``: of the other.
+    ``does``: the method, or methods, that it calls, with arguments. ``answers``: what the other's body does then.
+    ``requirement``: what is broken if that does not happen.
+    """
+
+    connector: str
+    calls: str
+    called: str
+    does: tuple[tuple[str, tuple[Datum, ...]], ...]
+    answers: tuple[Action, ...]
+    requirement: str
+
+    @property
+    def interfaces(self) -> dict[str, Interface]:
+        """The interfaces that it takes, under the name that it is bound to."""
+        if self.connector == SERVICE:
+            return {self.connector: Interface({"serve": Method((Parameter("given", "IN", _LONG),))})}
+        if self.connector == MESSAGE:
+            return {self.connector: message_interface(_LONG)}
+        return named_interfaces(self.connector, self.types[self.connector])
+
+    @property
+    def types(self) -> dict[str, dict[str, AnyType]]:
+        """The types that it is bound to, if it is of 10.4."""
+        data = {REQUEST_RESPONSE: (REQUEST_DATA, RESPONSE_DATA), SHARED_DATA: (SHARED,)}
+        return {self.connector: dict.fromkeys(data[self.connector], _LONG)} if self.connector in data else {}
+
+    def elements(self, role: str, port: str) -> dict[str, tuple[str, bool]]:
+        """The port elements of an end in that ``role``: by name the interface, and whether they are provided."""
+        if role in CONNECTOR_PORTS:
+            of = CONNECTOR_PORTS[role].elements
+            return {f"{port}.{e.name}": (f"{self.connector}.{e.interface}", e.provided) for e in of}
+        return {f"{port}.api": (self.connector, role in PROVIDER.values())}
+
+    def port(self, role: str, port: str) -> str:
+        """What is attached of such an end."""
+        return port if role in CONNECTOR_PORTS else f"{port}.api"
+
+    def actions(self, port: str) -> tuple[Action, ...]:
+        """The calls, through the required element of an end named ``port``."""
+        (element,) = (name for name, (_, provided) in self.elements(self.calls, port).items() if not provided)
+        return tuple(s.CallMethod(element, method, arguments) for method, arguments in self.does)
+
+
+_SERVICE: Final = _Connection(
+    SERVICE, REQUIRER[SERVICE], PROVIDER[SERVICE], (("serve", (_VALUE,)),), (), "R-10.1.5.1-01"
+)
+_MESSAGE: Final = _Connection(
+    MESSAGE,
+    REQUIRER[MESSAGE],
+    PROVIDER[MESSAGE],
+    ((s.PUSH, (_VALUE,)),),
+    (s.Answer(s.PUSH, ("ok",)),),
+    "R-10.1.6.1-01",
+)
+_REQUEST: Final = _Connection(
+    REQUEST_RESPONSE,
+    "rr_synchronous_client",
+    "rr_synchronous_server",
+    ((REQUEST, (_VALUE,)),),
+    (s.Answer(REQUEST, (_RESPONSE, "ok")),),
+    "R-10.4.1.2-01",
+)
+_PUBLICATION: Final = _Connection(
+    SHARED_DATA,
+    "sd_writer",
+    "sd_reader",
+    ((WRITE, (_VALUE,)), (PUBLISH, ())),
+    (s.Answer(NOTIFY, ()),),
+    "R-10.4.2.2-02",
+)
+_CONNECTIONS = {"a service": _SERVICE, "a message": _MESSAGE, "a request": _REQUEST, "a publication": _PUBLICATION}
+_OF_THE_CORE = ("a service", "a message")
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where the caller is executed.
+
+    ``hook``: of its body. ``clause``: about that place. ``policies``: of the caller.
+    ``first``: what it does when it is told to, which leads to its execution there.
+    ``provoked``: the steps after start.
+    ``around``: what it does before it calls, and afterwards.
+    ``via``: the connection through which it is executed, if it is, and ``role``: the caller's role there.
+    ``other``: what the other component there does when it is told to; if nothing, the caller is told.
+    """
+
+    hook: Hook
+    clause: str
+    policies: tuple[Policy, ...] = ()
+    first: tuple[Action, ...] = ()
+    provoked: tuple[Step, ...] = ()
+    around: tuple[tuple[Action, ...], tuple[Action, ...]] = ((), ())
+    via: _Connection | None = None
+    role: str = ""
+    other: tuple[Action, ...] = ()
+
+
+def _run(of: Policy, clause: str) -> _Place:
+    """In ``run``, once start has returned."""
+    return _Place("run", clause, (of,), (), (s.ReachGate(_GO), s.OpenGate(_GO)), ((s.HoldAtGate(_GO),), ()))
+
+
+def _told(hook: Hook, clause: str, of: Policy, first: tuple[Action, ...] = (), *later: Step) -> _Place:
+    """When the test calls it, or some time after that."""
+    return _Place(hook, clause, (of,), first, (s.Invoke(_TELL, 1), *later))
+
+
+_NOTIFIED = _Place(
+    "method",
+    "10.4.2",
+    provoked=(s.Invoke(_TELL, 1),),
+    around=((), _PUBLICATION.answers),
+    via=_PUBLICATION,
+    role=_PUBLICATION.called,
+    other=_PUBLICATION.actions("first"),
+)
+_SERVED = _Place(
+    "method",
+    "10.4.1",
+    provoked=(s.Invoke(_TELL, 1),),
+    around=((), _REQUEST.answers),
+    via=_REQUEST,
+    role=_REQUEST.called,
+    other=_REQUEST.actions("first"),
+)
+_ANSWERED = _Place(
+    "method",
+    "10.4.1",
+    first=(s.CallMethod("first.client_req_p", REQUEST, (_VALUE,)),),
+    provoked=(s.Invoke(_TELL, 1),),
+    around=((), (s.Answer(RESPONSE, ("ok",)),)),
+    via=_REQUEST,
+    role="rr_asynchronous_client",
+)
+
+_PLACES = {
+    "run": _run(SELF, "10.1.3.2"),
+    "a periodic run": _run(policy(s.PERIODIC_SELF_EXECUTING), "10.5"),
+    "a run in the background": _run(policy(s.BACKGROUND), "10.5"),
+    "a periodic execution": _told("exchange", "10.5", policy(s.PERIODIC_ACTIVE, port=PORT)),
+    "a sporadic execution": _told("exchange", "10.5", policy(s.SPORADIC_ACTIVE, port=PORT)),
+    "the callback of an index timer": _told("method", "10.3.2", TIMERS, (sporadic(5, 1),), after(1)),
+    "the trigger of an object timer": _told("method", "10.3.1", SCHEDULES, (once(0.2),), after(0.2)),
+    "a notification": _NOTIFIED,
+    "a request that is served": _SERVED,
+    "a response": _ANSWERED,
+}
+
+
+def calls_from_run() -> list[TestPurpose]:
+    """Services and messages from the run of a self-executing component (10.1.3.2)."""
+    return [_purpose("run", _OF_THE_CORE)]
+
+
+def calls_from_callbacks() -> list[TestPurpose]:
+    """Everything from each place of 10.3 to 10.5, and what 10.4 adds from run."""
+    others = [name for name in _CONNECTIONS if name not in _OF_THE_CORE]
+    return [_purpose("run", others, "10.4"), *(_purpose(name, _CONNECTIONS) for name in _PLACES if name != "run")]
+
+
+def _purpose(place: str, connections: Iterable[str], clause: str = "") -> TestPurpose:
+    chosen = {name: _CONNECTIONS[name] for name in connections}
+    name = f"calls from {place}{f' ({clause})' if clause else ''}"
+    scenarios = tuple((f"{name}/{what}", _scenario(_PLACES[place], one)) for what, one in chosen.items())
+    requirements = tuple(one.requirement for one in chosen.values())
+    return TestPurpose(
+        name, clause or _PLACES[place].clause, f"A component calls others from {place}.", requirements, scenarios
+    )
+
+
+@dataclass(frozen=True)
+class _End:
+    """An end of a connection: the ``line``, what joins there, in which ``role``, and the name of the ``port``."""
+
+    line: str
+    of: _Connection
+    role: str
+    port: str
+
+
+def _scenario(place: _Place, out: _Connection) -> Scenario:
+    """The caller is executed in its ``place`` and calls ``out``."""
+    before, afterwards = place.around
+    inside = (*before, *out.actions("out"), *afterwards)
+    ends = {_CALLER: [_End("line", out, out.calls, "out")], _CALLED: [_End("line", out, out.called, "serves")]}
+    plans: dict[str, dict[Hook, tuple[Action, ...]]] = {
+        _CALLER: {place.hook: inside} | ({"exchange": place.first} if place.first else {}),
+        _CALLED: {"method": (s.HoldAtGate(_GOT), *out.answers)},
+    }
+    if place.via is not None:
+        is_called = place.role == place.via.called
+        ends[_CALLER].append(_End("first line", place.via, place.role, "first"))
+        ends[_OTHER] = [_End("first line", place.via, place.via.calls if is_called else place.via.called, "first")]
+        plans[_OTHER] = {"exchange": place.other} if is_called else {"method": place.via.answers}
+    steps: list[Step] = [s.AddComponent(name) for name in ends]
+    joined = {end.line: end.of for of in ends.values() for end in of}
+    steps += [s.Link(of.connector, of.connector, line) for line, of in joined.items()]  # type: ignore[arg-type]
+    steps += [
+        s.Attach(end.line, end.role, name, end.of.port(end.role, end.port))  # type: ignore[arg-type]
+        for name, of in ends.items()
+        for end in sorted(of, key=lambda end: end.role == end.of.calls)
+    ]
+    told = _OTHER if place.other else _CALLER
+    steps += [s.GetPortElement(told, PORT, _TELL), s.OpenGate(_GOT), s.Start(), *place.provoked]
+    steps += [s.ReachGate(_GOT, total=1), s.Stop(), s.GetComponents()]
+    components = {name: _component(of, plans[name], place if name == _CALLER else None) for name, of in ends.items()}
+    interfaces = {name: one for of in joined.values() for name, one in of.interfaces.items()}
+    types = {name: one for of in joined.values() for name, one in of.types.items()}
+    return Scenario(components, tuple(steps), interfaces=interfaces, types=types, patience=4000)
+
+
+def _component(ends: list[_End], plan: dict[Hook, tuple[Action, ...]], place: _Place | None) -> Declaration:
+    elements = {name: one for end in ends for name, one in end.of.elements(end.role, end.port).items()}
+    return Declaration(
+        (PORT, *(name for name, (_, provided) in elements.items() if provided)),
+        tuple(name for name, (_, provided) in elements.items() if not provided),
+        plan=plan,
+        policies=place.policies if place is not None else (),
+        ports={name: interface for name, (interface, _) in elements.items()},
+        handlers=HANDLERS if place is not None and place.policies == (SCHEDULES,) else (),
+    )
