@@ -84,6 +84,8 @@ def _put_together(runtime: ObservedRuntime, link: LinkState) -> SharedData:
         if end is None:
             continue
         if end.side == "writer":
+            for target, _ in call.targets:  # one that never reads, and is never notified, is a reader, too
+                readers.setdefault((id(target.member), target.of), Reader(target))
             found.operations.append(call)
             if call.request.method not in (WRITE, CANCEL):
                 found.publications.append(Publication(call, end, (), "nothing"))

@@ -39,8 +39,11 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CALLER, _CALLED, _OTHER = "caller", "called", "other"
 _TELL = "tell"
-_GO, _GOT = "go", "got"
-"""Gates: a run waits for ``go`` before it calls; whoever is called passes ``got``."""
+_GOT = "got"
+"""The gate that whoever is called passes."""
+
+_AFTER_START = 30
+"""Milliseconds, as an offset: the run comes when start has returned."""
 
 _LONG = Integer("LONG")
 _VALUE, _RESPONSE = 41, 42
@@ -132,7 +135,7 @@ class _Place:
     ``hook``: of its body. ``clause``: about that place. ``policies``: of the caller.
     ``first``: what it does when it is told to, which leads to its execution there.
     ``provoked``: the steps after start.
-    ``around``: what it does before it calls, and afterwards.
+    ``afterwards``: what it does when it has called.
     ``via``: the connection through which it is executed, if it is, and ``role``: the caller's role there.
     ``other``: what the other component there does when it is told to; if nothing, the caller is told.
     """
@@ -142,15 +145,10 @@ class _Place:
     policies: tuple[Policy, ...] = ()
     first: tuple[Action, ...] = ()
     provoked: tuple[Step, ...] = ()
-    around: tuple[tuple[Action, ...], tuple[Action, ...]] = ((), ())
+    afterwards: tuple[Action, ...] = ()
     via: _Connection | None = None
     role: str = ""
     other: tuple[Action, ...] = ()
-
-
-def _run(of: Policy, clause: str) -> _Place:
-    """In ``run``, once start has returned."""
-    return _Place("run", clause, (of,), (), (s.ReachGate(_GO), s.OpenGate(_GO)), ((s.HoldAtGate(_GO),), ()))
 
 
 def _told(hook: Hook, clause: str, of: Policy, first: tuple[Action, ...] = (), *later: Step) -> _Place:
@@ -162,7 +160,7 @@ _NOTIFIED = _Place(
     "method",
     "10.4.2",
     provoked=(s.Invoke(_TELL, 1),),
-    around=((), _PUBLICATION.answers),
+    afterwards=_PUBLICATION.answers,
     via=_PUBLICATION,
     role=_PUBLICATION.called,
     other=_PUBLICATION.actions("first"),
@@ -171,7 +169,7 @@ _SERVED = _Place(
     "method",
     "10.4.1",
     provoked=(s.Invoke(_TELL, 1),),
-    around=((), _REQUEST.answers),
+    afterwards=_REQUEST.answers,
     via=_REQUEST,
     role=_REQUEST.called,
     other=_REQUEST.actions("first"),
@@ -181,15 +179,15 @@ _ANSWERED = _Place(
     "10.4.1",
     first=(s.CallMethod("first.client_req_p", REQUEST, (_VALUE,)),),
     provoked=(s.Invoke(_TELL, 1),),
-    around=((), (s.Answer(RESPONSE, ("ok",)),)),
+    afterwards=(s.Answer(RESPONSE, ("ok",)),),
     via=_REQUEST,
     role="rr_asynchronous_client",
 )
 
 _PLACES = {
-    "run": _run(SELF, "10.1.3.2"),
-    "a periodic run": _run(policy(s.PERIODIC_SELF_EXECUTING), "10.5"),
-    "a run in the background": _run(policy(s.BACKGROUND), "10.5"),
+    "run": _Place("run", "10.1.3.2", (SELF,)),
+    "a periodic run": _Place("run", "10.5", (policy(s.PERIODIC_SELF_EXECUTING, offset=_AFTER_START),)),
+    "a run in the background": _Place("run", "10.5", (policy(s.BACKGROUND, offset=_AFTER_START),)),
     "a periodic execution": _told("exchange", "10.5", policy(s.PERIODIC_ACTIVE, port=PORT)),
     "a sporadic execution": _told("exchange", "10.5", policy(s.SPORADIC_ACTIVE, port=PORT)),
     "the callback of an index timer": _told("method", "10.3.2", TIMERS, (sporadic(5, 1),), after(1)),
@@ -233,8 +231,7 @@ class _End:
 
 def _scenario(place: _Place, out: _Connection) -> Scenario:
     """The caller is executed in its ``place`` and calls ``out``."""
-    before, afterwards = place.around
-    inside = (*before, *out.actions("out"), *afterwards)
+    inside = (*out.actions("out"), *place.afterwards)
     ends = {_CALLER: [_End("line", out, out.calls, "out")], _CALLED: [_End("line", out, out.called, "serves")]}
     plans: dict[str, dict[Hook, tuple[Action, ...]]] = {
         _CALLER: {place.hook: inside} | ({"exchange": place.first} if place.first else {}),
