@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import threading
 import time
+from collections.abc import Callable
 
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.platform_interfaces import NOTIFY
 from ucm_cts.adapters.mutants.python.methods import does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import SHARED, breaks
+from ucm_cts.adapters.reference.python.connectors import OK
 from ucm_cts.adapters.reference.python.port_links import End
 from ucm_cts.adapters.reference.python.shared_data import Published, SharedDataLink
 
@@ -129,3 +133,54 @@ def notifies_three_times_in_all(self: Link, _reader: End) -> bool:
     """After three notifications there are no more."""
     self.__dict__["count"] = self.__dict__.get("count", 0) + 1
     return bool(self.__dict__["count"] <= 3)
+
+
+@breaks("R-10.4.2.2-02", clauses=SHARED)
+class notifies_those_that_have_read(Link):
+    """A reader that has not read yet is not notified."""
+
+    def read(self, end: End) -> list[Datum]:
+        self.__dict__.setdefault("have read", set()).add(end)
+        return super().read(end)
+
+    def _notify(self, reader: End) -> None:
+        if reader in self.__dict__.get("have read", ()):
+            super()._notify(reader)
+
+
+@breaks("R-10.4.2.2-02", clauses=SHARED)
+class tells_of_other_values_only(Link):
+    """A value that is equal to the one before is not published."""
+
+    def _send(self, value: Published) -> None:
+        if self.current is None or self.current.value != value.value:
+            super()._send(value)
+
+
+@breaks("R-10.4.2.2-20", clauses=SHARED, also=("R-10.4.2.2-02",))
+class takes_equal_values_once(Link):
+    """A value that is equal to the one that was set before, and cancelled, is not set."""
+
+    def write(self, end: End, value: Datum) -> str:
+        latest = self.__dict__.setdefault("latest", {})
+        before, latest[end] = latest.get(end), value
+        return super().write(end, value) if before != value else OK
+
+
+@breaks("R-10.4.2.2-02", clauses=SHARED)
+class publishes_nothing_in_notifications(Link):
+    """What a component publishes while it is notified is not sent."""
+
+    def _post(self, end: End, work: Callable[[], object]) -> None:
+        def notify() -> None:
+            thread = threading.current_thread()
+            thread.__dict__["is notified"] = True
+            try:
+                work()
+            finally:
+                thread.__dict__["is notified"] = False
+
+        super()._post(end, notify)
+
+    def publish(self, end: End) -> str:
+        return OK if threading.current_thread().__dict__.get("is notified") else super().publish(end)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.methods import alters
 from ucm_cts.adapters.mutants.python.registry import MISSING_CALLBACKS, TIMED, Base, breaks
+from ucm_cts.adapters.reference.python.connectors import Link
 from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.timers import Timer
 
@@ -120,3 +123,27 @@ def tells_a_date_of_ten_seconds_ago(self: Base, _told: list[Datum], member: Memb
 @breaks("R-10.3.2-35", clauses=TIMED, readings={"callback-time": "now"})
 class tells_requests_that_it_declares_dates(Base):
     """The time that is told is the one asked for, although the date of the call is declared."""
+
+
+class _KnowsCallbacks(Link):
+    """Fails when a component calls while it is called back."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if threading.current_thread().__dict__.get("is called back"):
+            raise UcmError("no calls in callbacks")
+        return super()._request(method, arguments)
+
+
+@breaks("R-10.1.5.1-01", clauses=TIMED)
+class serves_nobody_who_is_called_back(Base):
+    """A component that is called back by its timer cannot call others."""
+
+    link_class = _KnowsCallbacks
+
+    def _call_body(self, member: Member, timer: Timer) -> None:
+        thread = threading.current_thread()
+        thread.__dict__["is called back"] = True
+        try:
+            super()._call_body(member, timer)
+        finally:
+            thread.__dict__["is called back"] = False
