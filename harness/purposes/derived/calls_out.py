@@ -45,6 +45,7 @@ _GOT = "got"
 _AFTER_START = 30
 """Milliseconds, as an offset: the run comes when start has returned."""
 
+_TRACE = "trace.trace_api"
 _LONG = Integer("LONG")
 _VALUE, _RESPONSE = 41, 42
 
@@ -129,6 +130,33 @@ _OF_THE_CORE = ("a service", "a message")
 
 
 @dataclass(frozen=True)
+class _Given:
+    """What the container gives by a policy.
+
+    ``policy``: of the caller. ``does``: its calls. ``awaited``: the steps after which their effect has shown.
+    ``requirement``: what is broken if it has not.
+    """
+
+    policy: Policy
+    does: tuple[Action, ...]
+    awaited: tuple[Step, ...]
+    requirement: str
+
+
+_GIVEN = {
+    "a timer": _Given(TIMERS, (sporadic(9, 1),), (after(1),), "R-10.3.2-21"),
+    "the log": _Given(
+        Policy(s.COMPONENT_TRACE, element=_TRACE),
+        (s.CallMethod(_TRACE, "log", ("info", "called out")),),
+        (s.ReadLog(1), s.Pause(30), s.ReadLog(1)),
+        "R-10.1.4.2-26",
+    ),
+}
+_OFTEN = ("run", "a periodic run")
+"""Places where the caller is executed again and again: it would set its timer anew each time."""
+
+
+@dataclass(frozen=True)
 class _Place:
     """Where the caller is executed.
 
@@ -156,24 +184,14 @@ def _told(hook: Hook, clause: str, of: Policy, first: tuple[Action, ...] = (), *
     return _Place(hook, clause, (of,), first, (s.Invoke(_TELL, 1), *later))
 
 
-_NOTIFIED = _Place(
-    "method",
-    "10.4.2",
-    provoked=(s.Invoke(_TELL, 1),),
-    afterwards=_PUBLICATION.answers,
-    via=_PUBLICATION,
-    role=_PUBLICATION.called,
-    other=_PUBLICATION.actions("first"),
-)
-_SERVED = _Place(
-    "method",
-    "10.4.1",
-    provoked=(s.Invoke(_TELL, 1),),
-    afterwards=_REQUEST.answers,
-    via=_REQUEST,
-    role=_REQUEST.called,
-    other=_REQUEST.actions("first"),
-)
+def _reached(via: _Connection, clause: str) -> _Place:
+    """When another component, which the test calls, reaches it through a connection."""
+    told = (s.Invoke(_TELL, 1),)
+    return _Place(
+        "method", clause, provoked=told, afterwards=via.answers, via=via, role=via.called, other=via.actions("first")
+    )
+
+
 _ANSWERED = _Place(
     "method",
     "10.4.1",
@@ -192,9 +210,11 @@ _PLACES = {
     "a sporadic execution": _told("exchange", "10.5", policy(s.SPORADIC_ACTIVE, port=PORT)),
     "the callback of an index timer": _told("method", "10.3.2", TIMERS, (sporadic(5, 1),), after(1)),
     "the trigger of an object timer": _told("method", "10.3.1", SCHEDULES, (once(0.2),), after(0.2)),
-    "a notification": _NOTIFIED,
-    "a request that is served": _SERVED,
+    "a notification": _reached(_PUBLICATION, "10.4.2"),
+    "a request that is served": _reached(_REQUEST, "10.4.1"),
     "a response": _ANSWERED,
+    "a message": _reached(_MESSAGE, "10.3.2"),
+    "a service": _reached(_SERVICE, "10.3.2"),
 }
 
 
@@ -204,13 +224,20 @@ def calls_from_run() -> list[TestPurpose]:
 
 
 def calls_from_callbacks() -> list[TestPurpose]:
-    """Everything from each place of 10.3 to 10.5, and what 10.4 adds from run."""
+    """Everything from each place of 10.3 to 10.5, what 10.4 adds from run, and timers and records of the log from everywhere."""
     others = [name for name in _CONNECTIONS if name not in _OF_THE_CORE]
-    return [_purpose("run", others, "10.4"), *(_purpose(name, _CONNECTIONS) for name in _PLACES if name != "run")]
+    purposes = [_purpose("run", others, "10.4")]
+    for name, place in _PLACES.items():
+        given = [what for what, one in _GIVEN.items() if name not in _OFTEN and one.policy not in place.policies]
+        reaches = _CONNECTIONS if name not in (*_OFTEN[:1], *_OF_THE_CORE) else ()
+        if given or reaches:
+            purposes.append(_purpose(name, (*reaches, *given)))
+    return purposes
 
 
 def _purpose(place: str, connections: Iterable[str], clause: str = "") -> TestPurpose:
-    chosen = {name: _CONNECTIONS[name] for name in connections}
+    known: dict[str, _Connection | _Given] = {**_CONNECTIONS, **_GIVEN}
+    chosen = {name: known[name] for name in connections}
     name = f"calls from {place}{f' ({clause})' if clause else ''}"
     scenarios = tuple((f"{name}/{what}", _scenario(_PLACES[place], one)) for what, one in chosen.items())
     requirements = tuple(one.requirement for one in chosen.values())
@@ -229,14 +256,18 @@ class _End:
     port: str
 
 
-def _scenario(place: _Place, out: _Connection) -> Scenario:
+def _scenario(place: _Place, out: _Connection | _Given) -> Scenario:
     """The caller is executed in its ``place`` and calls ``out``."""
-    inside = (*out.actions("out"), *place.afterwards)
-    ends = {_CALLER: [_End("line", out, out.calls, "out")], _CALLED: [_End("line", out, out.called, "serves")]}
-    plans: dict[str, dict[Hook, tuple[Action, ...]]] = {
-        _CALLER: {place.hook: inside} | ({"exchange": place.first} if place.first else {}),
-        _CALLED: {"method": (s.HoldAtGate(_GOT), *out.answers)},
-    }
+    plans: dict[str, dict[Hook, tuple[Action, ...]]] = {_CALLER: {"exchange": place.first} if place.first else {}}
+    ends: dict[str, list[_End]] = {_CALLER: []}
+    if isinstance(out, _Given):
+        plans[_CALLER][place.hook] = (*out.does, *place.afterwards)
+        policies, awaited = (*place.policies, out.policy), out.awaited
+    else:
+        plans[_CALLER][place.hook] = (*out.actions("out"), *place.afterwards)
+        plans[_CALLED] = {"method": (s.HoldAtGate(_GOT), *out.answers)}
+        ends = {_CALLER: [_End("line", out, out.calls, "out")], _CALLED: [_End("line", out, out.called, "serves")]}
+        policies, awaited = place.policies, (s.ReachGate(_GOT, total=1),)
     if place.via is not None:
         is_called = place.role == place.via.called
         ends[_CALLER].append(_End("first line", place.via, place.role, "first"))
@@ -252,20 +283,20 @@ def _scenario(place: _Place, out: _Connection) -> Scenario:
     ]
     told = _OTHER if place.other else _CALLER
     steps += [s.GetPortElement(told, PORT, _TELL), s.OpenGate(_GOT), s.Start(), *place.provoked]
-    steps += [s.ReachGate(_GOT, total=1), s.Stop(), s.GetComponents()]
-    components = {name: _component(of, plans[name], place if name == _CALLER else None) for name, of in ends.items()}
+    steps += [*awaited, s.Stop(), s.GetComponents()]
+    components = {name: _component(of, plans[name], policies if name == _CALLER else ()) for name, of in ends.items()}
     interfaces = {name: one for of in joined.values() for name, one in of.interfaces.items()}
     types = {name: one for of in joined.values() for name, one in of.types.items()}
     return Scenario(components, tuple(steps), interfaces=interfaces, types=types, patience=4000)
 
 
-def _component(ends: list[_End], plan: dict[Hook, tuple[Action, ...]], place: _Place | None) -> Declaration:
+def _component(ends: list[_End], plan: dict[Hook, tuple[Action, ...]], policies: tuple[Policy, ...]) -> Declaration:
     elements = {name: one for end in ends for name, one in end.of.elements(end.role, end.port).items()}
     return Declaration(
         (PORT, *(name for name, (_, provided) in elements.items() if provided)),
         tuple(name for name, (_, provided) in elements.items() if not provided),
         plan=plan,
-        policies=place.policies if place is not None else (),
+        policies=policies,
         ports={name: interface for name, (interface, _) in elements.items()},
-        handlers=HANDLERS if place is not None and place.policies == (SCHEDULES,) else (),
+        handlers=HANDLERS if SCHEDULES in policies else (),
     )

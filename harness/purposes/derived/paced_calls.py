@@ -17,7 +17,16 @@ _PERIODIC, _SPORADIC = s.PERIODIC_ACTIVE, s.SPORADIC_ACTIVE
 _USUAL, _WIDE, _LONG = 50, 100, 300
 """Periods in milliseconds. With the long one lateness shows."""
 
+_BESIDE = {
+    "a clock": Policy(s.CLOCK, element="clock.clock_api"),
+    "a trace of the port": Policy(s.PORT_TRACE, PORT, {s.METHODS_TO_TRACE: "exchange", s.LOG_SEVERITY: "info"}),
+}
+"""Other policies that the component has."""
+
 _BURST = 5
+_MANY, _IDLE = 12, 12
+"""More calls than a framework counts on its fingers, and so many periods without any."""
+
 APART = {_PERIODIC: "2-10 2-11 2-12", _SPORADIC: "2-15 2-16 2-17"}
 EACH_ONCE = {_PERIODIC: "2-08 2-09", _SPORADIC: "2-13 2-14"}
 """The requirements on distances, and on single executions, of each policy."""
@@ -69,6 +78,11 @@ def _bursts(definition: str) -> TestPurpose:
     two = (*_calls("api", "aux", "api", "aux", "api"), *_joins(_BURST))
     cases.append(("two ports", _scenario(_server(*_both(definition, _USUAL)), *two)))
     cases.append(("after a while", _scenario(server, s.Pause(2 * _USUAL + 20), *one)))
+    idle = (*_burst_of(["api"], 1), s.Pause(_IDLE * _USUAL), *_burst_of(["api"] * 3, 11))
+    cases.append(("after a long while", _scenario(server, *idle)))
+    cases.append((f"{_MANY} at once", _scenario(server, *_calls(*["api"] * _MANY), *_joins(_MANY))))
+    for what, further in _BESIDE.items():
+        cases.append((f"beside {what}", _scenario(_server(policy(definition, _USUAL), further), *one)))
     again = (*one, s.Pause(_USUAL), *_calls("api", "api", first=11), *_joins(2, 11))
     cases.append(("again", _scenario(server, *again)))
     in_turn = tuple(s.Invoke("api", n) for n in range(1, _BURST + 1))

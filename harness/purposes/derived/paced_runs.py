@@ -114,6 +114,9 @@ def _offsets() -> list[TestPurpose]:
             s.Stop(),
         )
         cases.append(("a container that is started later", Scenario(components, steps)))
+        clock = Policy(s.CLOCK, element="clock.clock_api")
+        beside = _runner(policy(definition, 40, 60), clock)
+        cases.append(("beside a clock", _scenario({"runner": beside}, s.Start(), _runs(count), s.Pause(50))))
         cases.append(("a second instance", _second(definition, count)))
         cases.append(("long ones", _long_times(definition)))
         purposes.append(purposes_about(f"{NAMES[definition]}/offsets", requirements, *cases))
@@ -166,6 +169,8 @@ def _phases() -> list[TestPurpose]:
         begun = (s.Start(), s.ReachGate(_INSIDE), s.Stop(thread="stopper"), s.Pause(30), s.Start(thread="stopper"))
         left = (s.Pause(30), s.OpenGate(_INSIDE), s.Join("stopper"), s.Pause(6 * _USUAL), s.Stop(), s.Pause(80))
         cases.append(("restart during a run", _scenario(held, *begun, *left, gates=())))
+        moved = (s.Start(), s.Pause(80), s.Stop(), s.Start(), s.Pause(90), s.ReachGate(_RAN, more=count), s.Pause(60))
+        cases.append(("restart just before the offset has passed", _scenario(waits, *moved)))
         once_more = (*cut, s.Start(), s.ReachGate(_RAN, more=count))
         cases.append(("restart before the offset has passed", _scenario(waits, *once_more)))
         removed = (s.Start(), s.Pause(20), s.Stop(), s.RemoveComponent("runner"), s.Pause(180), s.Start(), s.Pause(60))

@@ -33,7 +33,15 @@ _CONNECTOR_OF: dict[str, Connector] = {_SERVICE_PORT: SERVICE, _MESSAGE_PORT: ME
 
 _RAISED, _RESTARTED = "after a call that raised", "after a restart"
 _SECOND, _BELOW, _SUCCESSOR = "as a second instance", "in a sub-container", "as a successor"
-_SITUATIONS = (_RAISED, _RESTARTED, _SECOND, _BELOW, _SUCCESSOR)
+_TRACED, _WITH_CLOCK = "with traces of its ports", "with a clock"
+_SITUATIONS = (_RAISED, _RESTARTED, _SECOND, _BELOW, _SUCCESSOR, _TRACED, _WITH_CLOCK)
+_FURTHER_POLICIES = {
+    _TRACED: tuple(
+        Policy(s.PORT_TRACE, port, {s.METHODS_TO_TRACE: "exchange", s.LOG_SEVERITY: "info"}) for port in _PORTS
+    ),
+    _WITH_CLOCK: (Policy(s.CLOCK, element="clock.clock_api"),),
+}
+"""By situation: what the server has beside its execution policy."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +144,9 @@ def _receivers() -> list[TestPurpose]:
 
 
 def _in_situations() -> list[TestPurpose]:
-    """Protected components are protected whatever went before, whichever instance of their implementation they are, and everywhere."""
+    """Protected components are protected whatever went before, whichever instance of their implementation they are, everywhere, and whatever
+    other policies they have.
+    """
     purposes = []
     ways = _WAYS[: len(_PORTS)]
     for kind in (_KINDS[0], _KINDS[3], _SELF_EXECUTING):
@@ -190,7 +200,8 @@ def _meeting(kind: _Kind, ways: tuple[_Way, ...], situation: str = "") -> Scenar
     if not raised and _MESSAGE_WAY not in ways:
         method = hold
     all_ways = (*ways, _SERVICE_WAYS[0]) if raised else ways
-    server = _server(all_ways, {"exchange": hold, "method": method}, kind.policies)
+    policies = (*kind.policies, *_FURTHER_POLICIES.get(situation, ()))
+    server = _server(all_ways, {"exchange": hold, "method": method}, policies)
     callers = [f"caller {number}" for number in range(len(ways))]
     calls: list[Step] = [s.Stop(), s.Start()] if situation == _RESTARTED else []
     calls += [s.Invoke(f"way {len(ways)}", 21)] if raised else []
