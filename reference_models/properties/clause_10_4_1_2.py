@@ -206,6 +206,11 @@ def response_returned(check: Property, runtime: ObservedRuntime) -> Conclusions:
                 cause = "another's" if others else "other"
                 yield _violate(check, _RETURNS if plain else _TYPES, cause, asked, expected, observed)
             else:
+                own = _own_code(entries[0])
+                if own != OK and server.is_synchronous and not (yield from takes(runtime, "request-code", "dropped")):
+                    expected = f"gives {own}, as its server did, for codes are passed on, as declared"
+                    yield _violate(check, _CODES, "code dropped", asked, expected, "it gave ok")
+                    continue
                 yield check.kept(_RETURNS)
                 yield check.kept(_CODES)
                 if server.is_synchronous:
@@ -220,14 +225,19 @@ def response_returned(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 def _not_ok(check: Property, runtime: ObservedRuntime, asked: Asked, entry: Received) -> Conclusions:
     """It was answered and nothing was wrong: another code than ok must be the server's own."""
-    left = entry.delivery.exit
-    own = left.results[-1] if left is not None and left.results and not left.failed else OK
+    own = _own_code(entry)
     if own != OK and asked.code == own:
         if (yield from takes(runtime, "request-code", "passed")):
             return
     elif fails(entry.server) and asked.code != OK:
         return
     yield _violate(check, _CODES, "not ok", asked, "gives ok: its server answered", f"it gave {_got(asked)}")
+
+
+def _own_code(entry: Received) -> object:
+    """The code that the server's body gave; ok if it gave none."""
+    left = entry.delivery.exit
+    return left.results[-1] if left is not None and left.results and not left.failed else OK
 
 
 def _is_busy(runtime: ObservedRuntime, asked: Asked) -> bool:

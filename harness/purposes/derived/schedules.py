@@ -34,6 +34,9 @@ _CONNECTOR_OF: dict[str, Connector] = {_SERVICE_PORT: SERVICE, _MESSAGE_PORT: ME
 _RAISED, _RESTARTED = "after a call that raised", "after a restart"
 _SECOND, _BELOW, _SUCCESSOR = "as a second instance", "in a sub-container", "as a successor"
 _TRACED, _WITH_CLOCK = "with traces of its ports", "with a clock"
+_LATE, _LONG = "after a long wait", 3_500
+"""A situation that lasts for so many milliseconds: nobody who waits for a protected component is let in before."""
+
 _SITUATIONS = (_RAISED, _RESTARTED, _SECOND, _BELOW, _SUCCESSOR, _TRACED, _WITH_CLOCK)
 _FURTHER_POLICIES = {
     _TRACED: tuple(
@@ -150,8 +153,9 @@ def _in_situations() -> list[TestPurpose]:
     purposes = []
     ways = _WAYS[: len(_PORTS)]
     for kind in (_KINDS[0], _KINDS[3], _SELF_EXECUTING):
-        scenarios = tuple((f"{kind.name}/{what}", _meeting(kind, ways, what)) for what in _SITUATIONS)
-        text = f"A component that is {kind.name} is called by two, {', '.join(_SITUATIONS)}."
+        situations = (*_SITUATIONS, _LATE) if kind is _KINDS[0] else _SITUATIONS
+        scenarios = tuple((f"{kind.name}/{what}", _meeting(kind, ways, what)) for what in situations)
+        text = f"A component that is {kind.name} is called by two, {', '.join(situations)}."
         purposes.append(TestPurpose(f"{kind.name}/afterwards", _CLAUSE, text, kind.different, scenarios))
     return purposes
 
@@ -210,6 +214,8 @@ def _meeting(kind: _Kind, ways: tuple[_Way, ...], situation: str = "") -> Scenar
         calls.append(s.ReachGate("inside") if number == 0 else s.Settle(caller))
     if _MESSAGE_WAY in ways or kind.policies == (Policy(s.UNPROTECTED_PASSIVE),):
         calls.append(s.Pause(_MOMENT))
+    if situation == _LATE:
+        calls.append(s.Pause(_LONG))
     calls += [s.OpenGate("inside"), *map(s.Join, callers)]
     if _MESSAGE_WAY in ways:
         calls.append(s.ReachGate("inside", total=len(ways)))

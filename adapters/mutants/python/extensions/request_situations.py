@@ -108,3 +108,14 @@ class answers_in_two_phases(RequestResponseLink):
 
     def _respond(self, response: Datum, number: Datum) -> str:
         return super()._respond(response, number) if self.__dict__.get("stops", 0) < 2 else INTERNAL_ERROR
+
+
+@breaks("R-10.4.1.1-34", clauses=REQUESTS, readings={"request-code": "passed"})
+class drops_codes_against_what_is_declared(RequestResponseLink):
+    """A synchronous client gets ok, whatever code its server gives; it is declared that codes are passed on."""
+
+    def _request_and_wait(self, client: End, request: Datum) -> list[Datum]:
+        response, code = super()._request_and_wait(client, request)
+        server = self._server()
+        is_served = server is not None and server.taker is not None and server.taker.entrance.is_open
+        return [response, OK if is_served and not self.broken else code]
