@@ -188,9 +188,9 @@ def _cancel() -> TestPurpose:
     ]
     of_all = alone(timed(*large), tell(1), s.Pause(200), tell(3), tell(2), tell(3), after(1))
     cases.append(("of numbers of any size", of_all))
-    alike = (*(sporadic(number, 1, 1) for number in _ALIKE), cancel(_ALIKE[1], 2), cancel(_ALIKE[3], 2))
-    asked = tuple(is_canceled(number, 3) for number in _ALIKE)
-    two = alone(timed(*alike, *asked), tell(1), s.Pause(200), tell(3), tell(2), tell(3), after(1))
+    alike = (*(sporadic(number, 1, 1) for number in _ALIKE), *(is_canceled(number, 3) for number in _ALIKE))
+    ends = (cancel(_ALIKE[1], 2), cancel(_ALIKE[3], 2))
+    two = alone(timed(*alike, *ends), tell(1), s.Pause(200), tell(3), tell(2), tell(3), after(1))
     cases.append(("of numbers whose low bytes are one", two))
     return purposes_about("cancel", "22 38 39 40 .04", *cases)
 

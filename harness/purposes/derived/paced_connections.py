@@ -65,8 +65,9 @@ def _sender(connector: Connector, told: bool) -> Declaration:
 
 def _connected(connector: Connector, *senders: str) -> tuple[Step, ...]:
     """The receiver and ``senders``, added, connected, and started; each sender is told by its name."""
-    steps: list[Step] = [
-        *(s.AddComponent("receiver"), *map(s.AddComponent, senders), s.Link(connector, _INTERFACE, "line")),
+    steps: list[Step] = [s.AddComponent(name) for name in ("receiver", *senders)]
+    steps += [
+        s.Link(connector, _INTERFACE, "line"),
         provided_end(connector, "line", "receiver", _PROVIDED[connector]),
     ]
     for name in senders:
