@@ -25,7 +25,7 @@ _BESIDE = {
 
 _BURST = 5
 _MANY, _IDLE = 12, 12
-"""More calls than a framework counts on its fingers, and so many periods without any."""
+"""So many calls at once, and so many periods without a call before a burst."""
 
 APART = {_PERIODIC: "2-10 2-11 2-12", _SPORADIC: "2-15 2-16 2-17"}
 EACH_ONCE = {_PERIODIC: "2-08 2-09", _SPORADIC: "2-13 2-14"}
