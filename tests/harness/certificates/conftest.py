@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
-from judged_runs import Run, run_of
 from workshop import Workshop
+
+if TYPE_CHECKING:
+    from judged_runs import Run
 
 
 @pytest.fixture(scope="session")
@@ -21,4 +25,7 @@ def workshop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
 @pytest.fixture(scope="module")
 def conformant() -> Run:
     """A run of a conformant framework, with drawn scenarios."""
+    # it loads the SDK, which remembers the hooks of threads: pytest must have set its own before
+    from judged_runs import run_of
+
     return run_of("reference-py", "R-11.2.2.2-07", drawn=20)
