@@ -128,7 +128,8 @@ def _long_times(definition: str) -> Scenario:
     components = {f"after {n} ms": _runner(policy(definition, _USUAL, n)) for n in _WRAPPED}
     if definition == _PERIODIC:
         components |= {f"each {n} ms": _runner(policy(definition, n)) for n in _WRAPPED}
-    return _scenario(components, s.Start(), s.Pause(250))
+    first_runs = (_runs(len(_WRAPPED)),) if definition == _PERIODIC else ()
+    return _scenario(components, s.Start(), *first_runs, s.Pause(250))
 
 
 def _second(definition: str, count: int) -> Scenario:
@@ -238,7 +239,8 @@ def _several() -> TestPurpose:
     cases.append(("both kinds", _scenario(mixed, s.Start(), _runs(20))))
     for definition in (_PERIODIC, _BACKGROUND):
         many = {f"number {n}": _runner(policy(definition, 60, 5 * n)) for n in range(1, _SEVERAL + 1)}
-        cases.append((f"{_SEVERAL} of {NAMES[definition]}", _scenario(many, s.Start(), s.Pause(200))))
+        waiting = (_runs(_SEVERAL if definition == _BACKGROUND else 3 * _SEVERAL), s.Pause(50))
+        cases.append((f"{_SEVERAL} of {NAMES[definition]}", _scenario(many, s.Start(), *waiting)))
     return purposes_about("periodic self-executing/several", "1-27 1-31 2-01", *cases)
 
 
