@@ -155,6 +155,9 @@ _GIVEN = {
 _OFTEN = ("run", "a periodic run")
 """Places where the caller is executed again and again: it would set its timer anew each time."""
 
+_OF_OTHER_PURPOSES = ("run", "a message", "a service")
+"""Places from which connections are called in other purposes: those of ``run``, and relays."""
+
 
 @dataclass(frozen=True)
 class _Place:
@@ -229,7 +232,7 @@ def calls_from_callbacks() -> list[TestPurpose]:
     purposes = [_purpose("run", others, "10.4")]
     for name, place in _PLACES.items():
         given = [what for what, one in _GIVEN.items() if name not in _OFTEN and one.policy not in place.policies]
-        reaches = _CONNECTIONS if name not in (*_OFTEN[:1], *_OF_THE_CORE) else ()
+        reaches = _CONNECTIONS if name not in _OF_OTHER_PURPOSES else ()
         if given or reaches:
             purposes.append(_purpose(name, (*reaches, *given)))
     return purposes
