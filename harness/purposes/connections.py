@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Final, Literal
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
 from ucm_cts.adapters.contract.scenario import MANAGER, Scenario, Step
 
 SERVICE: Final = s.SERVICE_CONNECTOR
@@ -18,6 +19,14 @@ PROVIDER: dict[str, Literal["server", "receiver"]] = {SERVICE: "server", MESSAGE
 
 REQUIRER: dict[str, Literal["client", "emitter"]] = {SERVICE: "client", MESSAGE: "emitter"}
 """By connector: the role of an end whose port element is required."""
+
+
+SERVE: Final = "serve"
+INTERFACES: dict[str, Interface] = {
+    SERVICE: Interface({SERVE: Method((Parameter("given", "IN", Integer("LONG")),))}),
+    MESSAGE: message_interface(Integer("ULONG")),
+}
+"""By connector: an interface that takes a number and gives nothing."""
 
 
 def provided_end(connector: str, link: str, component: str, port: str = "in.api", container: str = MANAGER) -> Step:

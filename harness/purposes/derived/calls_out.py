@@ -7,15 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import (
-    AnyType,
-    Datum,
-    Integer,
-    Interface,
-    Method,
-    Parameter,
-    message_interface,
-)
+from ucm_cts.adapters.contract.data_types import AnyType, Datum, Integer, Interface
 from ucm_cts.adapters.contract.platform_interfaces import (
     CONNECTOR_PORTS,
     NOTIFY,
@@ -31,7 +23,7 @@ from ucm_cts.adapters.contract.platform_interfaces import (
     named_interfaces,
 )
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
-from ucm_cts.harness.purposes.connections import MESSAGE, PROVIDER, REQUIRER, SERVICE
+from ucm_cts.harness.purposes.connections import INTERFACES, MESSAGE, PROVIDER, REQUIRER, SERVE, SERVICE
 from ucm_cts.harness.purposes.derived.object_timer_steps import HANDLERS, SCHEDULES, once
 from ucm_cts.harness.purposes.derived.paced_policies import policy
 from ucm_cts.harness.purposes.derived.timer_steps import PORT, SELF, TIMERS, after, sporadic
@@ -69,10 +61,8 @@ class _Connection:
     @property
     def interfaces(self) -> dict[str, Interface]:
         """The interfaces that it takes, under the name that it is bound to."""
-        if self.connector == SERVICE:
-            return {self.connector: Interface({"serve": Method((Parameter("given", "IN", _LONG),))})}
-        if self.connector == MESSAGE:
-            return {self.connector: message_interface(_LONG)}
+        if self.connector in INTERFACES:
+            return {self.connector: INTERFACES[self.connector]}
         return named_interfaces(self.connector, self.types[self.connector])
 
     @property
@@ -98,9 +88,7 @@ class _Connection:
         return tuple(s.CallMethod(element, method, arguments) for method, arguments in self.does)
 
 
-_SERVICE: Final = _Connection(
-    SERVICE, REQUIRER[SERVICE], PROVIDER[SERVICE], (("serve", (_VALUE,)),), (), "R-10.1.5.1-01"
-)
+_SERVICE: Final = _Connection(SERVICE, REQUIRER[SERVICE], PROVIDER[SERVICE], ((SERVE, (_VALUE,)),), (), "R-10.1.5.1-01")
 _MESSAGE: Final = _Connection(
     MESSAGE,
     REQUIRER[MESSAGE],

@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
-from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, Connector, provided_end, required_end
+from ucm_cts.harness.purposes.connections import (
+    INTERFACES,
+    MESSAGE,
+    SERVE,
+    SERVICE,
+    Connector,
+    provided_end,
+    required_end,
+)
 from ucm_cts.harness.purposes.derived.paced_calls import APART, EACH_ONCE
 from ucm_cts.harness.purposes.derived.paced_policies import NAMES, PORT, policy, purposes_about
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -18,11 +25,6 @@ _PERIOD = 50
 _GOT = "got"
 _VALUES = (11, 22, 33)
 _INTERFACE = "numbers"
-_SERVE = "serve"
-_NUMBERS = {
-    MESSAGE: message_interface(Integer("ULONG")),
-    SERVICE: Interface({_SERVE: Method((Parameter("given", "IN", Integer("LONG")),))}),
-}
 _PROVIDED = {MESSAGE: "message.api", SERVICE: "service.api"}
 
 
@@ -58,7 +60,7 @@ def _receiver(connector: Connector, definition: str) -> Declaration:
 
 def _sender(connector: Connector, told: bool) -> Declaration:
     """A component that sends all values when it is called, or only the one that it is ``told``."""
-    method = s.PUSH if connector == MESSAGE else _SERVE
+    method = s.PUSH if connector == MESSAGE else SERVE
     sent = tuple(s.CallMethod("out.api", method, (n,), given=n if told else None) for n in _VALUES)
     return Declaration((PORT,), ("out.api",), plan={"exchange": sent}, ports={"out.api": _INTERFACE})
 
@@ -90,7 +92,7 @@ def _scenario(connector: Connector, definition: str, between: int) -> Scenario:
     else:
         told = [s.Invoke("sender", 1)]
     steps = (*_connected(connector, "sender"), *told, s.Stop())
-    return Scenario(components, steps, interfaces={_INTERFACE: _NUMBERS[connector]})
+    return Scenario(components, steps, interfaces={_INTERFACE: INTERFACES[connector]})
 
 
 def _clients(definition: str) -> Scenario:
@@ -99,4 +101,4 @@ def _clients(definition: str) -> Scenario:
     components = {"receiver": _receiver(SERVICE, definition), **dict.fromkeys(clients, _sender(SERVICE, told=True))}
     calls = (s.Invoke(name, n, thread=name) for name, n in zip(clients, _VALUES, strict=True))
     steps = (*_connected(SERVICE, *clients), *calls, *map(s.Join, clients), s.Stop())
-    return Scenario(components, steps, interfaces={_INTERFACE: _NUMBERS[SERVICE]})
+    return Scenario(components, steps, interfaces={_INTERFACE: INTERFACES[SERVICE]})

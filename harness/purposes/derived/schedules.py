@@ -11,22 +11,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
-from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, Connector, provided_end, required_end
+from ucm_cts.harness.purposes.connections import INTERFACES, MESSAGE, SERVICE, Connector, provided_end, required_end
 from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _PORTS = ("in.api", "aux.api")
 _SERVICE_PORT = "service.api"
 _MESSAGE_PORT = "message.api"
-_SERVICE = Interface({"serve": Method((Parameter("given", "IN", Integer("LONG")),))})
-_MESSAGE = message_interface(Integer("ULONG"))
 _CLAUSE = "10.1.3.2"
 _MOMENT = 20
 """Milliseconds in which an execution that is not kept out shows itself."""
 
-_INTERFACES = {"service": _SERVICE, "message": _MESSAGE}
+_INTERFACES = {"service": INTERFACES[SERVICE], "message": INTERFACES[MESSAGE]}
 _INTERFACE_OF = {_SERVICE_PORT: "service", _MESSAGE_PORT: "message"}
 _CONNECTOR_OF: dict[str, Connector] = {_SERVICE_PORT: SERVICE, _MESSAGE_PORT: MESSAGE}
 
