@@ -42,8 +42,11 @@ PATIENCE = 500
 COMPARED = 25
 """The number of findings for a requirement that are compared with the trace of the right framework, short scenarios first."""
 
-LIMITS = Limits(seconds=3, incident_seconds=20)
+LIMITS_OF_MUTANTS = Limits(seconds=3, incident_seconds=20)
 """What a trial waits for a mutant that hangs."""
+
+LIMITS_OF_VARIANTS = Limits(seconds=60)
+"""A conformant variant does not hang: when it does not answer, the machine is busy."""
 
 _OF_EXTENSIONS = ("10.2", "10.3", "10.4", "10.5")
 """Clauses of profile extensions."""
@@ -216,7 +219,7 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
     statement = _statement(subject)
     try:
         endpoint = locate(subject.adapter, virtual_time=ran.virtual_time)
-        with _being(subject), Driver(endpoint, how.seed, LIMITS) as driver:
+        with _being(subject), Driver(endpoint, how.seed, _limits(subject)) as driver:
             campaign = Campaign(driver, profile, (), statement)
             purposes = _purposes(subject, how, profile, statement)
             if how.quick:
@@ -247,6 +250,10 @@ def _check(ran: _Trial, subject: Subject, campaign: Campaign, purposes: Sequence
         ran.scenarios += checked.executions
         if may_end and _is_killed(ran, subject):
             return
+
+
+def _limits(subject: Subject) -> Limits:
+    return LIMITS_OF_MUTANTS if subject.breaks else LIMITS_OF_VARIANTS
 
 
 def _being(subject: Subject) -> AbstractContextManager[None]:
