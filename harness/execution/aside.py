@@ -23,6 +23,9 @@ WAITING_FOR_A_HOST = 3
 MOST_INCIDENTS = 8
 """After more incidents there are no side hosts any more."""
 
+MOST_FAILURES = 3
+"""So often side hosts are started anew when something else than the product, a busy machine mostly, kept one from answering."""
+
 FEWEST = 2
 """How many side hosts there are at least if all that is to come is known and more than these are permitted."""
 
@@ -39,7 +42,7 @@ class Aside:
         # in virtual time waits take none, so that further hosts would gain nothing
         self.number = number if may_be_several and not endpoint.virtual_time else 0
         self._left_behind: Counter[str] = Counter()
-        self._incidents = self._turn = 0
+        self._incidents = self._failures = self._turn = 0
         self._endpoint = endpoint
         self._own = hosts
         self._hosts: SideHosts | None = None
@@ -76,6 +79,15 @@ class Aside:
         """There was another one. With few hosts a product that often crashes or hangs takes less time; but not if it is slow."""
         self._incidents += 1
         return self._incidents > MOST_INCIDENTS and not self._own.pace.is_slow
+
+    def fail(self) -> None:
+        """One could not answer, for another reason than the product: end all, and start them anew when there is work again. They
+        are not started again and again.
+        """
+        self._failures += 1
+        most = self.number if self._failures <= MOST_FAILURES else 0
+        self.end()
+        self.number = most
 
     def expect(self, scenarios: Iterable[Scenario]) -> None:
         """All of these are to come: no more hosts are used than are worth their start."""

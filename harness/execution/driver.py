@@ -134,6 +134,7 @@ class Driver(Disguising):
         returned: deque[_Case] = deque()
         waiting: deque[_Case] = deque()
         more = True
+        has_failed = False
 
         def runs() -> Iterator[Run]:
             nonlocal more
@@ -157,30 +158,33 @@ class Driver(Disguising):
                     yield case.run
 
         def elsewhere() -> Iterator[Answer]:
-            """The answers to those that the pipeline's own host does not get."""
+            """The answers to those that the pipeline's own host does not get, until one cannot be had."""
+            nonlocal has_failed
             while waiting and (waiting[0].untried is not None or waiting[0].ahead is not None):
                 case = waiting.popleft()
                 if case.untried is not None:
                     yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
                     continue
                 answer = self._answered_ahead(case, insist)
-                if answer is None or (answer.incident is not None and self._aside.has_too_many_incidents()):
-                    self._end_side_hosts()  # from here on there is one host again
                 if answer is None:
+                    self._fail_aside()
+                    has_failed = True
                     waiting.appendleft(case)
                     return
+                if answer.incident is not None and self._aside.has_too_many_incidents():
+                    self._end_side_hosts()  # from here on there is one host again
                 self._note(answer)
                 yield answer
 
         try:
             while more or returned:
-                lost = False
+                lost = has_failed = False
                 with closing(self._hosts.run(runs())) as replies:
                     began = time.monotonic()
                     for reply in replies:
                         took = time.monotonic() - began
                         yield from elsewhere()
-                        if waiting and waiting[0].ahead is not None:
+                        if has_failed or (waiting and waiting[0].ahead is not None):
                             break
                         case = waiting.popleft()
                         began = time.monotonic()
@@ -193,8 +197,10 @@ class Driver(Disguising):
                         if lost:
                             break
                         began = time.monotonic()
-                yield from elsewhere()
-                left = [case if self._aside.is_there else replace(case, ahead=None) for case in waiting]
+                if not has_failed:
+                    yield from elsewhere()
+                is_there = self._aside.is_there and not has_failed
+                left = [case if is_there else replace(case, ahead=None) for case in waiting]
                 returned.extendleft(reversed(left))  # these were sent to a host that has ended
                 waiting.clear()
         finally:
@@ -251,6 +257,12 @@ class Driver(Disguising):
     def _end_side_hosts(self) -> None:
         self._aside.end()
         self._second_looks.forget()
+
+    def _fail_aside(self) -> None:
+        """What side hosts have begun will not be answered; others may follow."""
+        self._aside.fail()
+        self._second_looks.forget()
+        self._begun = {scenario: replace(case, ahead=None) for scenario, case in self._begun.items()}
 
     def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
         case = next(source, None)

@@ -258,6 +258,22 @@ def test_hosts_may_not_differ(tmp_path: Path) -> None:
     assert [answer.incident for answer in got] == [None] * 4
 
 
+def test_side_hosts_are_started_again_after_one_could_not_answer(tmp_path: Path) -> None:
+    """A busy machine kept one from its work, which may not cost all further scenarios their overlap."""
+    (tmp_path / "failing.py").write_text(
+        "import os\n"
+        "from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter\n"
+        "with open('starts', 'a') as starts:\n"
+        "    starts.write('.')\n"
+        "class Failing(ReferenceAdapter):\n"
+        "    version = 'other' if os.stat('starts').st_size == 2 else '1'\n"
+    )
+    with Driver(locate("failing:Failing", sandbox=False), 1, LIMITS, JOBS) as driver:
+        got = list(driver.run(cases(CALM, *[WAITS, CALM] * 12)))
+    assert [(answer.name, answer.incident) for answer in got] == [(str(number), None) for number in range(25)]
+    assert any(overlap(*two) for two in itertools.combinations(got[-8:], 2))
+
+
 @pytest.mark.parametrize("jobs", [1, JOBS])
 def test_scenarios_with_a_connector_that_is_not_offered_are_left_out_once_that_is_known(jobs: int) -> None:
     link = s.Link("simple_service_connector", "any", "l")
