@@ -145,6 +145,16 @@ def _with_values_of_default_cases(root: etree._Element) -> bool:
     return changed
 
 
+def _with_modes(root: etree._Element) -> bool:
+    """Let attributes without mode say what that means."""
+    changed = False
+    for attribute in root.iter("Attribute"):
+        if "mode" not in attribute.attrib:
+            attribute.set("mode", "READWRITE")
+            changed = True
+    return changed
+
+
 def _actual(element: etree._Element, name: str) -> etree._Element | None:
     """The declaration that ``name`` means at ``element``, behind aliases."""
     found = resolved(element, name, *TAGS)
@@ -167,5 +177,6 @@ CONTESTED = (
     Contested("relative-names=outward", "relative-names", _with_names_of_its_own),
     Contested("index-types=kinds-and-types", "index-types", _with_kinds_of_indices),
     Contested("default-case-values=optional", "default-cases", _with_values_of_default_cases),
+    Contested("attribute-mode-absent=readwrite", "attribute-mode", _with_modes),
 )
 """What some vendors may refuse of legal models, in the order in which it is taken out."""

@@ -2,7 +2,7 @@
 
 Those of 12.10 may stand in any module. Those of 12.11 are compared only in the modules that 12.11 prints, because the
 same things may follow from the models of clause 10 (interpretation standard-idl). Names of parameters are free, since one of
-those printed is not IDL: it differs only in case from its type's.
+those printed is not IDL: it differs only in case from its type's. Only the same names in another order are wrong.
 """
 
 from __future__ import annotations
@@ -166,7 +166,7 @@ class _Alike:
         )
 
     def operations(self, expected: idl.Declaration, found: idl.Declaration) -> bool:
-        """Result, directions, types and order of parameters, and exceptions."""
+        """Result, directions, types and order of parameters, and exceptions; the same names must have the same order."""
         if not isinstance(expected, idl.Operation) or not isinstance(found, idl.Operation):
             return False
         taken = [one.direction for one in expected.parameters] == [one.direction for one in found.parameters]
@@ -174,12 +174,19 @@ class _Alike:
         return (
             taken
             and raised[0] == raised[1]
+            and not _exchanged(expected, found)
             and self.types(expected.returns, found.returns)
             and all(
                 self.types(one.type, other.type)
                 for one, other in zip(expected.parameters, found.parameters, strict=True)
             )
         )
+
+
+def _exchanged(expected: idl.Operation, found: idl.Operation) -> bool:
+    """Do parameters have the printed names, and others than their own?"""
+    due, given = ([one.name.lower() for one in operation.parameters] for operation in (expected, found))
+    return due != given and sorted(due) == sorted(given)
 
 
 _PORT_ELEMENT = "PortElementObject"

@@ -95,9 +95,8 @@ def attribute_facts(
     if type_ is None:
         return
     yield exp.Means(**subject.about("R-12.8.1-03" if component else requirement, attribute), type=type_)
-    if attribute.mode in ("READ", "READWRITE"):
-        readonly = attribute.mode == "READ"
-        yield exp.Access(**subject.about("R-12.8.1-04" if component else requirement, attribute), readonly=readonly)
+    readonly = attribute.mode == "READ"  # one without mode can be written (interpretation attribute-mode)
+    yield exp.Access(**subject.about("R-12.8.1-04" if component else requirement, attribute), readonly=readonly)
     if attribute.default_value is not None:
         yield exp.Defaulted(**subject.about("R-12.4.1.3-03", attribute), type=type_, value=attribute.default_value)
 

@@ -52,7 +52,9 @@ def _enum(name: str, *values: str) -> idl.Enum:
 def _operation(
     name: str, *taken: str, out: tuple[str, ...] = (), returns: str = "void", raises: tuple[str, ...] = ()
 ) -> idl.Operation:
-    parameters = [idl.Parameter(name="", direction="in", type=_type(one)) for one in taken]
+    """``taken`` are types, or types and names where only the name tells two parameters apart."""
+    split = [one.partition(" ") for one in taken]
+    parameters = [idl.Parameter(name=named, direction="in", type=_type(type_)) for type_, _, named in split]
     parameters += [idl.Parameter(name="", direction="out", type=_type(one)) for one in out]
     return idl.Operation(name=name, returns=_type(returns), parameters=tuple(parameters), raises=raises)
 
@@ -157,7 +159,9 @@ _TIMERS: tuple[tuple[str, idl.Declaration], ...] = (
         "R-12.11.3-05",
         _interface(
             "timer_service_intf",
-            _operation("start_periodic_scheduler", "timer_number_t", "timeout_t", "timeout_t"),
+            _operation(
+                "start_periodic_scheduler", "timer_number_t timer_number", "timeout_t delay_time", "timeout_t rate"
+            ),
             _operation("start_sporadic_scheduler", "timer_number_t", "timeout_t"),
             _operation("cancel_timer", "timer_number_t"),
             _operation("is_canceled", "timer_number_t", returns="timer_bool_t"),

@@ -29,6 +29,7 @@ from ucm_cts.harness.toolchains.cpp.probes.check import (
 from ucm_cts.harness.toolchains.cpp.probes.checks import render
 from ucm_cts.harness.toolchains.cpp.probes.keywords import keyword_of, redefined
 from ucm_cts.harness.toolchains.cpp.probes.needs import lacks, line_of
+from ucm_cts.harness.toolchains.cpp.probes.observations import in_words
 from ucm_cts.harness.toolchains.cpp.probes.prelude import (
     ARRAY,
     SAFE_ENUM,
@@ -47,7 +48,6 @@ from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp
 
 _ROUNDS = 4
 _THREADS = 2
-_NOT = re.compile(r"holds<false>|holds<\(?false")
 
 
 @dataclass
@@ -227,13 +227,13 @@ class _Comparing:
             if not compiling.is_tag(error.file):
                 self._seen.loose.append(error)  # not of one probe
             elif kind == "body" and not probes_alone:  # else it may follow from what the probe found
-                self._seen.bodies.setdefault(rest, error.message)
+                self._seen.bodies.setdefault(rest, in_words(error.message))
             elif kind == "support":
-                self._seen.support.setdefault(rest, error.message)
+                self._seen.support.setdefault(rest, in_words(error.message))
             elif kind in ("prelude", "running"):
                 self._seen.problem = f"{kind}: {error.message}"
             elif kind.startswith("R-"):
-                self._seen.failed.setdefault(int(rest), (_observed(error.message), error.notes))
+                self._seen.failed.setdefault(int(rest), (in_words(error.message), error.notes))
         if compiled.ended_early:
             first = next((e.message for e in compiled.errors if e.fatal), compiled.problem)
             self._seen.problem = first
@@ -399,8 +399,3 @@ class _Comparing:
 def _message_of(error: compiling.Error) -> str:
     keyword = keyword_of(error.message)
     return f"it redefines the keyword {keyword}" if keyword else error.message
-
-
-def _observed(message: str) -> str:
-    """The compiler's words; a condition that does not hold says nothing but that."""
-    return "it is not so" if _NOT.search(message) else message
