@@ -24,6 +24,7 @@ from ucm_cts.adapters.contract.platform_interfaces import (
 )
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
 from ucm_cts.harness.purposes.connections import INTERFACES, MESSAGE, PROVIDER, REQUIRER, SERVE, SERVICE
+from ucm_cts.harness.purposes.container_services import HAS_TRACE, TRACE
 from ucm_cts.harness.purposes.derived.object_timer_steps import HANDLERS, SCHEDULES, once
 from ucm_cts.harness.purposes.derived.paced_policies import policy
 from ucm_cts.harness.purposes.derived.timer_steps import PORT, SELF, TIMERS, after, sporadic
@@ -37,7 +38,6 @@ _GOT = "got"
 _AFTER_START = 30
 """Milliseconds, as an offset: the run comes when start has returned."""
 
-_TRACE = "trace.trace_api"
 _LONG = Integer("LONG")
 _VALUE, _RESPONSE = 41, 42
 
@@ -134,8 +134,8 @@ class _Given:
 _GIVEN = {
     "a timer": _Given(TIMERS, (sporadic(9, 1),), (after(1),), "R-10.3.2-21"),
     "the log": _Given(
-        Policy(s.COMPONENT_TRACE, element=_TRACE),
-        (s.CallMethod(_TRACE, "log", ("info", "called out")),),
+        HAS_TRACE,
+        (s.CallMethod(TRACE, "log", ("info", "called out")),),
         (s.ReadLog(1), s.Pause(30), s.ReadLog(1)),
         "R-10.1.4.2-26",
     ),

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario
+from ucm_cts.harness.purposes.container_services import HAS_TRACE, TRACE
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.1.4.2"
-_TRACE = "trace.trace_api"
 _COMMON = ("debug", "info", "warning", "error")
 _UNPROTECTED = Policy(s.UNPROTECTED_PASSIVE)
 _LATER = 30
@@ -94,8 +94,8 @@ def _with_severities(*severities: str) -> Scenario:
 
 
 def _writing(messages: Sequence[tuple[str, str]], more: int = 0) -> Scenario:
-    calls = tuple(s.CallMethod(_TRACE, "log", message) for message in messages)
-    policies = (_UNPROTECTED, Policy(s.COMPONENT_TRACE, element=_TRACE))
+    calls = tuple(s.CallMethod(TRACE, "log", message) for message in messages)
+    policies = (_UNPROTECTED, HAS_TRACE)
     writer = Declaration(("in.api",), plan={"exchange": calls}, policies=policies)
     steps = (
         s.AddComponent("writer"),

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.harness.purposes.container_services import HAS_CLOCK
 from ucm_cts.harness.purposes.derived.paced_policies import NAMES, OTHER_PORT, PORT, policy, purposes_about
 from ucm_cts.harness.purposes.derived.through_components import through_components
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -18,7 +19,7 @@ _USUAL, _WIDE, _LONG = 50, 100, 300
 """Periods in milliseconds. With the long one lateness shows."""
 
 _BESIDE = {
-    "a clock": Policy(s.CLOCK, element="clock.clock_api"),
+    "a clock": HAS_CLOCK,
     "a trace of the port": Policy(s.PORT_TRACE, PORT, {s.METHODS_TO_TRACE: "exchange", s.LOG_SEVERITY: "info"}),
 }
 """Other policies that the component has."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.container_services import HAS_CLOCK
 from ucm_cts.harness.purposes.derived.paced_policies import NAMES, OTHER_PORT, PORT, policy, purposes_about
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
@@ -114,8 +115,7 @@ def _offsets() -> list[TestPurpose]:
             s.Stop(),
         )
         cases.append(("a container that is started later", Scenario(components, steps)))
-        clock = Policy(s.CLOCK, element="clock.clock_api")
-        beside = _runner(policy(definition, 40, 60), clock)
+        beside = _runner(policy(definition, 40, 60), HAS_CLOCK)
         cases.append(("beside a clock", _scenario({"runner": beside}, s.Start(), _runs(count), s.Pause(50))))
         cases.append(("a second instance", _second(definition, count)))
         cases.append(("long ones", _long_times(definition)))

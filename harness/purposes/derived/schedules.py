@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
 from ucm_cts.harness.purposes.connections import INTERFACES, MESSAGE, SERVICE, Connector, provided_end, required_end
+from ucm_cts.harness.purposes.container_services import HAS_CLOCK
 from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
@@ -39,7 +40,7 @@ _FURTHER_POLICIES = {
     _TRACED: tuple(
         Policy(s.PORT_TRACE, port, {s.METHODS_TO_TRACE: "exchange", s.LOG_SEVERITY: "info"}) for port in _PORTS
     ),
-    _WITH_CLOCK: (Policy(s.CLOCK, element="clock.clock_api"),),
+    _WITH_CLOCK: (HAS_CLOCK,),
 }
 """By situation: what the server has beside its execution policy."""
 

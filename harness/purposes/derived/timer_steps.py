@@ -6,15 +6,16 @@ from collections.abc import Iterable
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, CallMethod, Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.harness.purposes.container_services import CLOCK, HAS_CLOCK
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.reference_models.model.clock_readings import LOCAL, SYNCHRONIZED
 from ucm_cts.reference_models.model.timer_events import Kind
 
 PORT, OTHER_PORT = "in.api", "aux.api"
-SERVICE, CLOCK = "timer.timer_service", "clock.clock_api"
+SERVICE = "timer.timer_service"
 
 TIMERS = Policy(s.INDEX_TIMERS, element=SERVICE)
-WITH_CLOCK = (TIMERS, Policy(s.CLOCK, element=CLOCK))
+WITH_CLOCK = (TIMERS, HAS_CLOCK)
 READ_CLOCKS = (CallMethod(CLOCK, LOCAL), CallMethod(CLOCK, SYNCHRONIZED))
 """A body that reads both its clocks."""
 

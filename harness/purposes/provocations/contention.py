@@ -15,9 +15,9 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import read
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, provided_end, required_end
+from ucm_cts.harness.purposes.container_services import CLOCK, HAS_CLOCK, HAS_TRACE, TRACE
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
-_CLOCK, _TRACE = "clock.clock_api", "trace.trace_api"
 _UNPROTECTED = Policy(s.UNPROTECTED_PASSIVE)
 _NUMBER = Integer("ULONG")
 _INTERFACES = {
@@ -85,12 +85,12 @@ def _calls(clients: int, uses: int) -> Scenario:
 
 def _clocks(users: int, uses: int) -> Scenario:
     actions: tuple[Action, ...] = tuple(
-        s.CallMethod(_CLOCK, method) for _ in range(uses) for method in ("get_local_time", "get_synchronized_time")
+        s.CallMethod(CLOCK, method) for _ in range(uses) for method in ("get_local_time", "get_synchronized_time")
     )
     reader = Declaration(
         ("in.api",),
         plan={"exchange": (s.HoldAtGate(_READY), *actions)},
-        policies=(_UNPROTECTED, Policy(s.CLOCK, element=_CLOCK)),
+        policies=(_UNPROTECTED, HAS_CLOCK),
     )
     steps = [s.AddComponent(name) for name in _users(users)]
     return Scenario(dict.fromkeys(_users(users), reader), (*steps, *_at_once(users, s.Pause(_PAUSE))))
@@ -101,13 +101,13 @@ def _logs(users: int, uses: int) -> Scenario:
     components = {}
     for number, name in enumerate(_users(users)):
         actions = tuple(
-            s.CallMethod(_TRACE, "log", (severities[(number + use) % 4], f"message{number}x{use}"))
+            s.CallMethod(TRACE, "log", (severities[(number + use) % 4], f"message{number}x{use}"))
             for use in range(uses)
         )
         components[name] = Declaration(
             ("in.api",),
             plan={"exchange": (s.HoldAtGate(_READY), *actions)},
-            policies=(_UNPROTECTED, Policy(s.COMPONENT_TRACE, element=_TRACE)),
+            policies=(_UNPROTECTED, HAS_TRACE),
         )
     steps = [s.AddComponent(name) for name in components]
     return Scenario(components, (*steps, *_at_once(users, s.ReadLog(users * uses))))

@@ -18,6 +18,7 @@ from ucm_cts.adapters.contract.data_types import (
 )
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
 from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, provided_end, required_end
+from ucm_cts.harness.purposes.container_services import HAS_TRACE, TRACE
 from ucm_cts.harness.purposes.data.corner_values import LONG_STRING
 from ucm_cts.harness.purposes.provocations.boundaries import load_boundaries
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -32,7 +33,6 @@ _RUNNER = Declaration(("in.api",), policies=(Policy(s.SELF_EXECUTING),), plan={"
 _LONGEST_SEQUENCE = 4097
 """The most elements of a sequence that are carried: a trace holds each of them several times."""
 
-_TRACE = "trace.trace_api"
 _MOST = 8
 """The most components of a kind. Calls and records have no such limit."""
 
@@ -246,8 +246,8 @@ def _user(action: s.Action, interface: str) -> Declaration:
 
 
 def _records(count: int) -> Scenario:
-    writes = tuple(s.CallMethod(_TRACE, "log", ("info", f"record{number}")) for number in range(count))
-    policies = (_UNPROTECTED, Policy(s.COMPONENT_TRACE, element=_TRACE))
+    writes = tuple(s.CallMethod(TRACE, "log", ("info", f"record{number}")) for number in range(count))
+    policies = (_UNPROTECTED, HAS_TRACE)
     writer = Declaration(("in.api",), plan={"exchange": writes}, policies=policies)
     steps = (
         s.AddComponent("writer"),

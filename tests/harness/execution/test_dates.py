@@ -10,7 +10,8 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.trace import Event, Reply, Request
 from ucm_cts.harness.execution.integrity import contradiction
-from ucm_cts.harness.purposes.derived.timer_steps import CLOCK, WITH_CLOCK, alone, dated, tell, timed
+from ucm_cts.harness.purposes.container_services import CLOCK
+from ucm_cts.harness.purposes.derived.timer_steps import WITH_CLOCK, alone, dated, tell, timed
 from ucm_cts.reference_models.model.clock_readings import LOCAL
 
 TWICE = alone(
