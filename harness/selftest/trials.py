@@ -30,7 +30,7 @@ from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import Execution, FrameworkReport
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
-from ucm_cts.harness.selftest.wording import wrongly_said
+from ucm_cts.harness.selftest.wording import Wording
 from ucm_cts.harness.statement.applicability import purposes_for, why_not
 from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.reference_models.findings import Finding
@@ -190,8 +190,10 @@ class _Trial:
     def wrongly_said(self) -> Iterator[str]:
         """Of each property one finding whose text is wrong."""
         met: set[tuple[str, str]] = set()
+        wordings: dict[int, Wording] = {}
         for finding, execution in (one for shown in self.shown.values() for one in shown):
-            problem = wrongly_said(execution.scenario, finding)
+            wording = wordings.setdefault(id(execution.scenario), Wording(execution.scenario))
+            problem = wording.problem(finding)
             if problem and (finding.rule, problem) not in met:
                 met.add((finding.rule, problem))
                 said = f"expected {finding.expected}; observed {finding.observed}"

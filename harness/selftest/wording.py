@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 
 from ucm_cts.adapters.contract import scenario as s
@@ -15,18 +16,28 @@ _NAMING = ("bind", "component", "id", "connection", "link", "container", "ref")
 """The fields of steps with names of instances, implementations (one may be nobody's), connections, containers and references."""
 
 
-def wrongly_said(scenario: Scenario, finding: Finding) -> str:
-    """What is wrong with the text of a ``finding`` about ``scenario``, both in the same names; empty if nothing is."""
-    text = f"{finding.expected} {finding.observed}"
-    if not finding.expected.strip():
-        return "does not say what was expected"
-    if finding.expected == finding.observed:
-        return "observed what was expected"
-    if finding.rule not in HOST_CHECKS and not _names_of(scenario).search(text):  # those are about a process
-        return "names no instance, implementation, port, connection, container or reference"
-    if words := _PROGRAM_WORDS.search(text):
-        return f"says '{words.group()}'"
-    return ""
+class Wording:
+    """Looks at the texts of findings about ``scenario``, both in the same names."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self._scenario = scenario
+
+    def problem(self, finding: Finding) -> str:
+        """What is wrong with the text of ``finding``; empty if nothing is."""
+        text = f"{finding.expected} {finding.observed}"
+        if not finding.expected.strip():
+            return "does not say what was expected"
+        if finding.expected == finding.observed:
+            return "observed what was expected"
+        if finding.rule not in HOST_CHECKS and not self._names.search(text):  # those are about a process
+            return "names no instance, implementation, port, connection, container or reference"
+        if words := _PROGRAM_WORDS.search(text):
+            return f"says '{words.group()}'"
+        return ""
+
+    @functools.cached_property
+    def _names(self) -> re.Pattern[str]:
+        return _names_of(self._scenario)
 
 
 def _names_of(scenario: Scenario) -> re.Pattern[str]:

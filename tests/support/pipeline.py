@@ -28,7 +28,7 @@ from ucm_cts.harness.hosting.pace import waits
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
-from ucm_cts.harness.selftest.wording import wrongly_said
+from ucm_cts.harness.selftest.wording import Wording
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
@@ -97,8 +97,9 @@ def check_killed(mutant: Mutant, how: Thoroughness = Thoroughness(quick=True)) -
 
 def check_wording(scenario: Scenario, findings: Iterable[Finding]) -> None:
     """Each finding must expect something else than what was observed, and name what it is about."""
+    wording = Wording(scenario)
     for finding in findings:
-        assert not wrongly_said(scenario, finding), finding
+        assert not wording.problem(finding), finding
 
 
 def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | list[Finding]) -> None:

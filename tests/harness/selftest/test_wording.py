@@ -6,7 +6,7 @@ import pytest
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
-from ucm_cts.harness.selftest.wording import wrongly_said
+from ucm_cts.harness.selftest.wording import Wording
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.naming import Namer
 
@@ -35,7 +35,7 @@ SCENARIO = Scenario(
     ],
 )
 def test_what_is_wrong_is_said(expected: str, observed: str, wrong: str) -> None:
-    assert wrongly_said(SCENARIO, Finding("R-12.10-21", "outcomes", "c", expected, observed, ())) == wrong
+    assert Wording(SCENARIO).problem(Finding("R-12.10-21", "outcomes", "c", expected, observed, ())) == wrong
 
 
 def test_an_implementation_of_nobody_is_a_name_already() -> None:
