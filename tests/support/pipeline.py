@@ -8,10 +8,11 @@ import re
 import resource
 import signal
 import time
+import zlib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from types import FrameType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import psutil
 
@@ -37,19 +38,39 @@ _TIME = re.compile(rb'"t":\d+')
 
 
 class Judged(NamedTuple):
-    """The verdicts of the monitor on one trace under no statement: findings, readings seen by option, requirements exercised."""
+    """The verdicts of the monitor on one trace: findings, readings seen by option, requirements exercised.
+
+    ``asked``: the options that it asked for, each with its declared value, if it has one.
+    """
 
     findings: tuple[Finding, ...]
     readings: Mapping[str, frozenset[str]]
     exercised: frozenset[str]
+    asked: Mapping[str, str | None]
 
 
 Declared = tuple[tuple[str, str], ...]
 
-_known: dict[tuple[Declared, bytes, bytes], Judged] = {}
-"""Same trace, same findings: what many subjects do alike, but for the time it took, is judged once. By declared readings, scenario
-and digest of the trace.
+_known: dict[tuple[bytes, bytes], list[Judged]] = {}
+"""Same trace, same findings, if what was asked of the statement is declared alike: what many subjects do alike, but for the time it
+took, is judged once. By scenario and digest of the trace.
 """
+
+
+class _Asked(dict[str, str]):
+    """Declared readings that note which of them are asked for."""
+
+    def __init__(self, declared: Declared) -> None:
+        super().__init__(declared)
+        self.options: set[str] = set()
+
+    def get(self, option: str, default: Any = None) -> Any:
+        self.options.add(option)
+        return super().get(option, default)
+
+    def __getitem__(self, option: str) -> str:
+        self.options.add(option)
+        return super().__getitem__(option)
 
 
 class Product:
@@ -67,15 +88,17 @@ class Product:
         engine, stated = Engine(adapter), tuple(sorted(declared.items()))
         for line, (name, scenario) in _prepared(stated).items():
             answer = engine.answer(line)
-            key = stated, line, hashlib.blake2b(_TIME.sub(b"", answer), digest_size=16).digest()
-            if key not in _known:
-                _known[key] = _judged(stated, name, scenario, answer)
-            _tell(self.failing, name, _known[key].findings)
-            self.exercised |= _known[key].exercised
-            for option, values in _known[key].readings.items():
+            known = _known.setdefault((line, hashlib.blake2b(_TIME.sub(b"", answer), digest_size=16).digest()), [])
+            judged = next((one for one in known if all(declared.get(o) == v for o, v in one.asked.items())), None)
+            if judged is None:
+                judged = _judged(stated, name, scenario, answer)
+                known.append(judged)
+            _tell(self.failing, name, judged.findings)
+            self.exercised |= judged.exercised
+            for option, values in judged.readings.items():
                 self.readings.setdefault(option, set()).update(values)
-            if _known[key].readings:
-                self._telling.append((name, scenario, answer, frozenset(_known[key].readings)))
+            if judged.readings:
+                self._telling.append((name, scenario, answer, frozenset(judged.readings)))
 
     def failing_if(self, declared: Mapping[str, str]) -> dict[str, str]:
         """Failing requirements, each with an example, if the vendor declares these readings."""
@@ -110,13 +133,24 @@ def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | li
 @functools.cache
 def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario]]:
     """The suite's scenarios by what a host is sent; those that several test purposes share are there once."""
-    disguise, payloads = Disguise(1, "{port}_{element}"), Payloads(1)
     prepared: dict[bytes, tuple[str, Scenario]] = {}
     for purpose in load_purposes("container", *map("=".join, declared)):
         for name, plain in purpose.scenarios:
-            scenario = disguise.scenario(payloads.deal(plain))
-            prepared.setdefault(encode(Run(0, scenario)), (name, scenario))
+            line, scenario = _sent(plain)
+            prepared.setdefault(line, (name, scenario))
     return prepared
+
+
+_lines: dict[bytes, tuple[bytes, Scenario]] = {}
+
+
+def _sent(plain: Scenario) -> tuple[bytes, Scenario]:
+    """What a host is sent of a scenario, whatever was sent before: the same under each statement."""
+    key = encode(Run(0, plain))
+    if key not in _lines:
+        scenario = Disguise(1, "{port}_{element}").scenario(Payloads(zlib.crc32(key)).deal(plain))
+        _lines[key] = encode(Run(0, scenario)), scenario
+    return _lines[key]
 
 
 def _trace(name: str, answer: bytes) -> Trace:
@@ -168,12 +202,17 @@ def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes) ->
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, traced.stuck)
     assert problem is None, (name, problem)
-    verdicts = _monitor_of(declared).judge(scenario, traced.events)
+    monitor, stated = _monitor_of(declared)
+    stated.options.clear()
+    verdicts = monitor.judge(scenario, traced.events)
     check_wording(scenario, verdicts.findings)
     readings = {option: frozenset(values) for option, values in verdicts.readings.items()}
-    return Judged(tuple(verdicts.findings), readings, frozenset(verdicts.exercises))
+    asked = {option: dict.get(stated, option) for option in stated.options}
+    return Judged(tuple(verdicts.findings), readings, frozenset(verdicts.exercises), asked)
 
 
 @functools.cache
-def _monitor_of(declared: Declared) -> Monitor:
-    return Monitor(load_life_cycle(), Ics(dict(declared)))
+def _monitor_of(declared: Declared) -> tuple[Monitor, _Asked]:
+    """A monitor, and the readings that it asks for."""
+    stated = _Asked(declared)
+    return Monitor(load_life_cycle(), Ics(stated)), stated

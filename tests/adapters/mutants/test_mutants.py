@@ -14,7 +14,7 @@ from ucm_cts.reference_models.properties.table import PROPERTIES
 pytestmark = pytest.mark.slow
 
 OF_CONTAINER = mutants_of(CONTAINER)
-EACH = 20
+EACH = 50
 """Of the mutants of the life cycle one of so many goes on after it is killed; in a self-test, all do."""
 
 
